@@ -1,0 +1,101 @@
+// The declaration of a frame: resources, passes, what enters and what leaves.
+//
+//   rendergraph::Graph graph;
+//   Image color = graph.importImage("scene color", desc, {.image = ..., .before = ..., .after = ...});
+//   Image half = graph.createImage("half", {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .width = w / 2, .height = h / 2});
+//   Pass down = graph.addPass("downsample", PassKind::compute);
+//   down.sample(color);
+//   half = down.write(half, Usage::storage);
+//   down.record([=](PassContext& context) { context.dispatch({...}); });
+//   graph.exportImage(half, kSampledByFragment);
+//   executor.execute(graph);
+//
+// A Graph is pure declaration: it makes no Vulkan calls and may be built on any thread (one thread at a time).
+// Nothing is checked against the device until compile(). Several graphs may be alive at once.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <new>
+#include <source_location>
+#include <string_view>
+#include <utility>
+
+#include "rendergraph/handle.h"
+#include "rendergraph/pass.h"
+#include "rendergraph/resource.h"
+
+namespace rendergraph {
+
+struct Declaration;  // declaration.h: the plain data that compile() reads.
+
+/// Last frame's and this frame's content of one image that lives across frames.
+struct History {
+  Image previous;  ///< Read only; zero in the first frame and after its description changed.
+  Image next;      ///< To be written; becomes `previous` in the next frame.
+};
+
+class Graph {
+ public:
+  using Location = std::source_location;
+
+  Graph();
+  ~Graph();
+  Graph(Graph&&) noexcept;
+  Graph& operator=(Graph&&) noexcept;
+
+  /// Forgets the declaration and keeps its memory, for the next frame. Handles made before become foreign.
+  void reset();
+
+  /// An image that lives within the frame; its content is undefined until a pass writes it. Names need not be
+  /// unique; they appear in errors, dumps, captures and debuggers.
+  Image createImage(std::string_view name, const ImageDesc& desc, Location where = Location::current());
+  Buffer createBuffer(std::string_view name, const BufferDesc& desc, Location where = Location::current());
+
+  /// An image of the host. Writing it counts as observable: its writers are never culled.
+  Image importImage(std::string_view name, const ImageDesc& desc, const ImportedImage& imported,
+                    Location where = Location::current());
+  Buffer importBuffer(std::string_view name, const BufferDesc& desc, const ImportedBuffer& imported,
+                      Location where = Location::current());
+
+  /// An image or buffer that the executor keeps across frames under its name, zeroed when it is first made and
+  /// whenever its description changes. The name must be unique among the persistent resources of one executor.
+  /// Writing it counts as observable. Never aliased.
+  Image persistentImage(std::string_view name, const ImageDesc& desc, Location where = Location::current());
+  Buffer persistentBuffer(std::string_view name, const BufferDesc& desc, Location where = Location::current());
+  /// Two persistent images that change places each frame.
+  History history(std::string_view name, const ImageDesc& desc, Location where = Location::current());
+
+  /// Makes the content observable after the frame: its passes are kept, its memory is not reused, and it is left in
+  /// state `after`. A graph-made resource can be looked up with Executor::exported() until the next execute().
+  void exportImage(Image image, const AccessState& after, Location where = Location::current());
+  void exportBuffer(Buffer buffer, const AccessState& after, Location where = Location::current());
+
+  Pass addPass(std::string_view name, PassKind kind, Location where = Location::current());
+
+  const ImageDesc& desc(Image image) const;
+  const BufferDesc& desc(Buffer buffer) const;
+
+  const Declaration& declaration() const { return *declaration_; }
+
+ private:
+  friend class Pass;
+  using Recorder = void (*)(void* recording, PassContext& context);
+  using Destroyer = void (*)(void* recording);
+  /// Memory for a recording, and where to hang it.
+  void* allocateRecording(std::size_t size, std::size_t alignment);
+  void setRecording(uint32_t pass, void* recording, Recorder recorder, Destroyer destroyer);
+
+  std::unique_ptr<Declaration> declaration_;
+};
+
+template <class Recording>
+void Pass::record(Recording recording) {
+  void* memory = graph_->allocateRecording(sizeof(Recording), alignof(Recording));
+  new (memory) Recording(std::move(recording));
+  graph_->setRecording(
+      index_, memory, [](void* self, PassContext& context) { (*static_cast<Recording*>(self))(context); },
+      [](void* self) { static_cast<Recording*>(self)->~Recording(); });
+}
+
+}  // namespace rendergraph

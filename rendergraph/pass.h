@@ -1,0 +1,136 @@
+// A pass: what it reads and writes, and how it is recorded.
+#pragma once
+
+#include <vulkan/vulkan_core.h>
+
+#include <cstdint>
+#include <source_location>
+#include <span>
+#include <string_view>
+
+#include "rendergraph/access.h"
+#include "rendergraph/handle.h"
+#include "rendergraph/program.h"
+#include "rendergraph/resource.h"
+
+namespace rendergraph {
+
+class Graph;
+class Executor;
+
+enum class PassKind : uint8_t {
+  raster,    ///< Draws into attachments (dynamic rendering is begun and ended around the recording).
+  compute,
+  transfer,  ///< Copies, clears, fills.
+  host,      ///< Runs on the host between submissions.
+};
+
+/// Which queue a pass would like; a device without it uses the graphics queue.
+enum class QueuePreference : uint8_t { graphics, asyncCompute, transfer };
+
+enum class LoadOp : uint8_t {
+  clear,
+  load,      ///< Keep what is there: the access is a modify.
+  dontCare,  ///< Every texel will be written.
+};
+
+struct ColorAttachment {
+  LoadOp load = LoadOp::clear;
+  VkClearColorValue clear = {};
+  Subresources range = mip(0);  ///< One mip; several layers make layered rendering.
+};
+
+struct DepthAttachment {
+  LoadOp load = LoadOp::clear;
+  float clear = 0.0f;  ///< 0 is infinity in reversed depth.
+  Subresources range = mip(0);
+};
+
+/// What a recording may touch. Lives only during the recording call; do not keep it.
+/// Every resource given to it must have been declared by the pass, else GraphError (undeclaredAccess).
+class PassContext {
+ public:
+  PassContext(Executor& executor, uint32_t pass, VkCommandBuffer commands)
+      : executor_(executor), pass_(pass), commands_(commands) {}
+
+  /// For hosts that record Vulkan themselves. State that a recording sets is not restored for the next pass.
+  VkCommandBuffer commandBuffer() const { return commands_; }
+  VkImage image(Image image) const;
+  VkImageView view(Image image, Subresources range = {},
+                   VkImageViewType type = VK_IMAGE_VIEW_TYPE_2D) const;
+  VkBuffer buffer(Buffer buffer) const;
+  /// Size of the image at a mip.
+  VkExtent2D extent(Image image, uint32_t mipLevel = 0) const;
+  /// Formats of this raster pass's attachments, to make pipelines for it.
+  std::span<const VkFormat> colorFormats() const;
+  VkFormat depthFormat() const;  ///< UNDEFINED without depth attachment.
+
+  void dispatch(const Dispatch& dispatch);
+  void draw(const Draw& draw);
+  /// Same extent and texel size; whole subresource `mip`, `layer` of each.
+  void copyImage(Image from, Image to);
+  /// Tightly packed rows of mip 0, layer 0.
+  void copyImageToBuffer(Image from, Buffer to);
+  void copyBuffer(Buffer from, Buffer to, VkDeviceSize bytes);
+  void fillBuffer(Buffer to, uint32_t word);
+  void clearImage(Image to, const VkClearColorValue& value);
+
+ private:
+  Executor& executor_;
+  uint32_t pass_;
+  VkCommandBuffer commands_;
+};
+
+/// Declares one pass. Returned by Graph::addPass; a light reference that must not outlive the graph.
+/// Reads take the latest version of a handle; writes return the next one. Errors are GraphErrors, see error.h.
+class Pass {
+ public:
+  using Location = std::source_location;
+
+  /// Reads through sampler or texelFetch. `stages` 0: all shader stages that the kind of pass has
+  /// (compute; vertex, geometry and fragment for raster).
+  void sample(Image image, Subresources range = {}, VkPipelineStageFlags2 stages = 0,
+              Location where = Location::current());
+  /// Any other read. For storage images and buffers, uniform, transfer, indirect, vertex, index.
+  void read(Image image, Usage usage, Subresources range = {}, VkPipelineStageFlags2 stages = 0,
+            Location where = Location::current());
+  void read(Buffer buffer, Usage usage, VkPipelineStageFlags2 stages = 0,
+            Location where = Location::current());
+  /// Replaces the content of the range; other subresources keep theirs. The result must be used from here on.
+  [[nodiscard]] Image write(Image image, Usage usage, Subresources range = {},
+                            VkPipelineStageFlags2 stages = 0, Location where = Location::current());
+  [[nodiscard]] Buffer write(Buffer buffer, Usage usage, VkPipelineStageFlags2 stages = 0,
+                             Location where = Location::current());
+  /// Reads and writes: atomics, partial writes, accumulation in place.
+  [[nodiscard]] Image modify(Image image, Usage usage, Subresources range = {},
+                             VkPipelineStageFlags2 stages = 0, Location where = Location::current());
+  [[nodiscard]] Buffer modify(Buffer buffer, Usage usage, VkPipelineStageFlags2 stages = 0,
+                              Location where = Location::current());
+  /// Next colour attachment, in order of calls. Raster passes only. All attachments have the same size.
+  [[nodiscard]] Image color(Image image, const ColorAttachment& attachment = {},
+                            Location where = Location::current());
+  /// The depth attachment, tested and written.
+  [[nodiscard]] Image depth(Image image, const DepthAttachment& attachment = {},
+                            Location where = Location::current());
+  /// The depth attachment, tested only.
+  void depthReadOnly(Image image, Subresources range = mip(0), Location where = Location::current());
+  /// Render area of a raster pass without attachments (fragment stores only), px.
+  void renderArea(VkExtent2D extent, uint32_t layers = 1);
+
+  /// Never culled, whatever becomes of its outputs (it has an effect that the graph does not see).
+  void sideEffect();
+  void prefer(QueuePreference queue);
+
+  /// The recording: callable as void(PassContext&). It is copied into the graph's arena and destroyed by
+  /// Graph::reset(); what it references must live until the frame has been recorded.
+  template <class Recording>
+  void record(Recording recording);
+
+ private:
+  friend class Graph;
+  Pass(Graph& graph, uint32_t index) : graph_(&graph), index_(index) {}
+  Graph* graph_;
+  uint32_t index_;
+};
+
+}  // namespace rendergraph
