@@ -88,7 +88,7 @@ template <auto member, const auto& choiceNames,
           class Owner = typename detail::MemberOf<decltype(member)>::Owner>
 Field<Owner> choice(std::string_view name, std::string_view description) {
   using Type = typename detail::MemberOf<decltype(member)>::Type;
-  constexpr auto nameOf = [](Type value) {
+  static constexpr auto nameOf = [](Type value) {
     return ParameterValue(std::string(choiceNames[static_cast<std::size_t>(value)]));
   };
   return {{.name = name, .type = ParameterType::choice, .unit = "",
