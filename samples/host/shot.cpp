@@ -1,6 +1,8 @@
 // Reads shot files: see shot.h. Field by field in the order of a shot; the ranges of lens fields are engine/lens's.
 #include "samples/host/shot.h"
 
+#include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -13,9 +15,6 @@ namespace host {
 namespace {
 
 using std::filesystem::path;
-
-/// Vulkan promises 4096, every device in use has 16384; the device's own limit is checked when it renders.
-constexpr int kMaxResolution = 16384;
 
 /// A file that a shot names: relative to the shot's folder, and there.
 path existingFile(const JsonNode& node, const path& folder) {
