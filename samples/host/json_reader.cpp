@@ -12,9 +12,10 @@
 #include "passes/parameters.h"
 
 namespace host {
-namespace {
 
 using nlohmann::json;
+
+namespace {
 
 [[noreturn]] void failFile(const std::string& file, const std::string& field, const std::string& reason,
                            const std::string& remedy) {

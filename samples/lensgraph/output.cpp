@@ -32,9 +32,9 @@ path besides(const path& file) {
   return temporary;
 }
 
-void checkExtension(const path& file, std::string_view option, std::initializer_list<std::string_view> extensions) {
+void checkExtension(const path& file, std::string_view option, std::span<const std::string_view> extensions) {
   const std::string extension = lowerExtension(file);
-  if (extensions.size() == 0 || std::find(extensions.begin(), extensions.end(), extension) != extensions.end()) return;
+  if (extensions.empty() || std::find(extensions.begin(), extensions.end(), extension) != extensions.end()) return;
   std::string known;
   for (const auto each : extensions) known += (known.empty() ? "" : ", ") + std::string(each);
   throw engine::Error({.file = file.string(),
@@ -45,7 +45,7 @@ void checkExtension(const path& file, std::string_view option, std::initializer_
 
 }  // namespace
 
-void checkOutput(const path& file, std::string_view option, std::initializer_list<std::string_view> extensions) {
+void checkOutput(const path& file, std::string_view option, std::span<const std::string_view> extensions) {
   const auto fail = [&](const std::string& reason, const std::string& remedy) {
     throw engine::Error(
         {.file = file.string(), .field = std::string(option), .reason = reason, .remedy = remedy});

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <filesystem>
-#include <initializer_list>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -11,10 +11,11 @@ namespace cli {
 /// Throws engine::Error (bad input) unless the file could be written: its folder is there and takes files, and the path
 /// is no folder. `extensions`: those allowed, lower case with the dot; empty allows any. Leaves nothing behind.
 void checkOutput(const std::filesystem::path& file, std::string_view option,
-                 std::initializer_list<std::string_view> extensions = {});
+                 std::span<const std::string_view> extensions = {});
 
-/// Extensions of pictures, as engine/image_io writes them.
-inline constexpr std::initializer_list<std::string_view> kPictureExtensions = {".exr", ".png", ".hdr"};
+/// Extensions of pictures and of depth, as engine/image_io writes them.
+inline constexpr std::string_view kPictureExtensions[] = {".exr", ".png", ".hdr"};
+inline constexpr std::string_view kDepthExtensions[] = {".exr"};
 
 /// Warns when an exposure is asked for although the format keeps scene light.
 void warnUnusedExposure(const std::filesystem::path& output);

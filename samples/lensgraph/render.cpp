@@ -15,7 +15,7 @@ namespace {
 void checkOutputs(const RenderArguments& arguments) {
   checkOutput(arguments.output, "--output", kPictureExtensions);
   if (arguments.capture) checkOutput(*arguments.capture, "--capture");
-  if (arguments.depthOut) checkOutput(*arguments.depthOut, "--depth-out", {".exr"});
+  if (arguments.depthOut) checkOutput(*arguments.depthOut, "--depth-out", kDepthExtensions);
   if (arguments.depthOut && *arguments.depthOut == arguments.output) {
     throw engine::Error({.file = arguments.output.string(),
                          .field = "--depth-out",
