@@ -118,7 +118,7 @@ std::string join(const std::vector<std::string>& words) {
 }  // namespace
 
 std::vector<DeviceDescription> listDevices() {
-  const Instance instance(false);
+  const VulkanInstance instance(false);
   std::vector<DeviceDescription> list;
   for (VkPhysicalDevice device : enumerate(instance.handle())) list.push_back(describe(device));
   return list;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/instance.h"
+#include "engine/vulkan_instance.h"
 #include "engine/vulkan_api.h"
 
 namespace engine {
@@ -56,7 +56,7 @@ class Device {
   void choose(const std::string& select);
   void createDevice();
 
-  mutable Instance instance_;
+  mutable VulkanInstance instance_;
   DeviceDescription description_;
   VkPhysicalDevice physical_ = VK_NULL_HANDLE;
   VkDevice device_ = VK_NULL_HANDLE;

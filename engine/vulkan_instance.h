@@ -13,14 +13,14 @@ struct ValidationLog {
   std::vector<std::string> messages;
 };
 
-class Instance {
+class VulkanInstance {
  public:
   /// `validation`: core and synchronization validation, across submissions too. Throws engine::Error when there is no
   /// Vulkan 1.3 loader, or no validation layer although one is asked for.
-  explicit Instance(bool validation);
-  ~Instance();
-  Instance(const Instance&) = delete;
-  Instance& operator=(const Instance&) = delete;
+  explicit VulkanInstance(bool validation);
+  ~VulkanInstance();
+  VulkanInstance(const VulkanInstance&) = delete;
+  VulkanInstance& operator=(const VulkanInstance&) = delete;
 
   VkInstance handle() const { return instance_; }
   bool validates() const { return messenger_ != VK_NULL_HANDLE; }
