@@ -187,22 +187,28 @@ shared::vec2 aperturePoint(const shared::ApertureShape& shape, double u0, double
   return {static_cast<float>(point.x * stretch), static_cast<float>(-point.y / stretch)};
 }
 
-std::vector<LensSample> lensSamples(const shared::ApertureShape& shape, LensPattern pattern, uint32_t count,
-                                    bool pixelJitter) {
-  std::vector<LensSample> samples(count);
+LensSample lensSample(const shared::ApertureShape& shape, LensPattern pattern, uint32_t index, bool pixelJitter) {
   // A float below 0.5; u - 0.5 may round up to 0.5, which is the neighbour's pixel.
   const float last = std::nextafter(0.5f, 0.0f);
+  const auto u = patternPoint(pattern, index);
+  LensSample sample{};
+  sample.v = aperturePoint(shape, u[0], u[1]);
+  sample.weight = shared::apertureRingWeight(shape, sample.v);
+  if (pixelJitter) {
+    sample.pixelOffset = {std::min(static_cast<float>(u[2] - 0.5), last),
+                          std::min(static_cast<float>(u[3] - 0.5), last)};
+  }
+  return sample;
+}
+
+std::vector<LensSample> lensSamples(const shared::ApertureShape& shape, LensPattern pattern, uint32_t count,
+                                    bool pixelJitter) {
+  std::vector<LensSample> samples;
+  samples.reserve(count);
   double sum = 0.0;
   for (uint32_t i = 0; i < count; ++i) {
-    const auto u = patternPoint(pattern, i);
-    LensSample& sample = samples[i];
-    sample.v = aperturePoint(shape, u[0], u[1]);
-    sample.weight = shared::apertureRingWeight(shape, sample.v);
-    if (pixelJitter) {
-      sample.pixelOffset = {std::min(static_cast<float>(u[2] - 0.5), last),
-                            std::min(static_cast<float>(u[3] - 0.5), last)};
-    }
-    sum += static_cast<double>(sample.weight);
+    samples.push_back(lensSample(shape, pattern, i, pixelJitter));
+    sum += static_cast<double>(samples.back().weight);
   }
   // A lone sample where the aberration leaves no light still makes a picture.
   for (auto& sample : samples) {

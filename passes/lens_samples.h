@@ -36,6 +36,9 @@ std::array<double, 4> patternPoint(LensPattern pattern, uint32_t index);
 /// Gaussian aperture: normal, σ = √q and 1/√q in x and y (q the anamorphic ratio). Precondition: 0 ≤ u0, u1 < 1.
 shared::vec2 aperturePoint(const shared::ApertureShape& shape, double u0, double u1);
 
+/// Sample `index` by itself, with its weight not normalised: for who divides by the sum of weights.
+LensSample lensSample(const shared::ApertureShape& shape, LensPattern pattern, uint32_t index, bool pixelJitter);
+
 /// Samples 0 … count - 1. Lens points and pixel offsets of sample i do not depend on `count`, so a set can be continued;
 /// weights do, by their normalisation. Without `pixelJitter` every offset is 0 (the pixel's centre).
 std::vector<LensSample> lensSamples(const shared::ApertureShape& shape, LensPattern pattern, uint32_t count,
