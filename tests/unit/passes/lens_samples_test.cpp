@@ -82,9 +82,10 @@ TEST(LensSamples, SmoothIntegrandsConvergeLikeOneOverN) {
       const auto samples = passes::lensSamples(disc(), pattern, count, true);
       return std::abs(meanOf(samples, [](double x, double) { return std::exp(x); }) - exact);
     };
-    // Random points have σ = 0.55/√N here: 0.009 at 4096 and 0.002 at 65536. N·error must stay bounded.
-    for (const uint32_t count : {64u, 256u, 1024u, 4096u, 16384u, 65536u}) {
-      EXPECT_LT(count * error(count), 4.0) << static_cast<int>(pattern) << ' ' << count;
+    // N·error stays bounded where random points, σ = 0.55/√N, reach 35 at 4096 and 140 at 65536.
+    const double bound = pattern == LensPattern::sobol ? 0.5 : pattern == LensPattern::halton ? 2.0 : 6.5;
+    for (const uint32_t count : {256u, 1024u, 4096u, 16384u, 65536u}) {
+      EXPECT_LT(count * error(count), bound) << static_cast<int>(pattern) << ' ' << count;
     }
   }
 }
@@ -173,12 +174,12 @@ TEST(LensSamples, HaltonIsHalton) {
   EXPECT_DOUBLE_EQ(sixth[3], 6.0 / 7.0);
 }
 
-TEST(LensSamples, TheRecurrenceStepsByPowersOfItsRoot) {
+TEST(LensSamples, TheRecurrenceStepsByThePlasticNumber) {
   const auto first = passes::patternPoint(LensPattern::r2, 0);
   const auto second = passes::patternPoint(LensPattern::r2, 1);
-  double step = second[0] - first[0];
-  if (step < 0) step += 1.0;
-  EXPECT_NEAR(std::pow(step, -5), 1.0 / step + 1.0, 1e-12);
+  const auto step = [&](std::size_t d) { return second[d] - first[d] + (second[d] < first[d] ? 1.0 : 0.0); };
+  EXPECT_NEAR(std::pow(step(0), -3), 1.0 / step(0) + 1.0, 1e-14);  // ρ³ = ρ + 1
+  EXPECT_NEAR(step(1), step(0) * step(0), 1e-15);
 }
 
 TEST(LensSamples, PolygonsAreFilledAndNotLeft) {
