@@ -15,7 +15,8 @@ enum class FovModel {
   breathing,  ///< The sensor is fixed and the image distance is u_f = F / (1 - F V_f) (Lee 2009 eq. 1).
 };
 
-/// Thin lens. Every length in metres unless its name says millimetres.
+/// Thin lens. Every length in metres unless its name says millimetres, whatever the scene's unit: who draws the scene
+/// scales it by metersPerUnit, so that view space and near plane are in metres.
 struct Lens {
   double focalLengthMm = 50.0;    ///< mm, > 0.
   double fStop = 2.8;             ///< f-number, ≥ 0; 0 turns depth of field off.
@@ -45,10 +46,14 @@ std::vector<LensProblem> validate(const Lens& lens);
 double pixelsPerTangent(const Lens& lens, double fovyRadians, int imageHeight);
 
 /// Constants for depth buffers of the infinite reversed projection with this near plane (z = near · V).
+/// cocScale is 0 when depth of field is off; focusVergence is exactly 0 when focused at infinity.
 /// Preconditions: as above; nearPlane > 0, in metres.
 shared::LensConstants lensConstants(const Lens& lens, double fovyRadians, int imageHeight, double nearPlane);
 
 shared::ApertureShape apertureShape(const Lens& lens);
+
+/// A length of the scene, such as a near plane, in metres.
+double metersFromSceneUnits(const Lens& lens, double units);
 
 /// E in metres; 0 when depth of field is off.
 double apertureRadius(const Lens& lens);

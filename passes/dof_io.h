@@ -43,6 +43,8 @@ struct DofOutputs {
   rendergraph::Image color;  ///< Linear HDR RGBA, alpha 1, RGBA32F.
   /// Raw reversed depth of the pinhole view, for techniques that draw one; default-made otherwise.
   rendergraph::Image depth;
+  /// Standard error of the luma of `color`, R32F, of progressive techniques; default-made otherwise.
+  rendergraph::Image standardError;
   /// FrameStatistics (shaders/shared/statistics.h), one buffer per technique; default-made when it has none.
   rendergraph::Buffer statistics;
 };

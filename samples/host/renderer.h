@@ -21,8 +21,8 @@ struct Scene;
 namespace host {
 
 struct Rendering {
-  engine::Image color;  ///< Linear RGBA.
-  engine::Image depth;  ///< View depth in metres, one channel, 1e10 where nothing is hit; empty for apply.
+  engine::FloatImage color;  ///< Linear RGBA.
+  engine::FloatImage depth;  ///< View depth in metres, one channel, 1e10 where nothing is hit; empty for apply.
   shared::FrameStatistics statistics{};
   rendergraph::Capture capture;  ///< Of the last execution.
   double gpuMs = 0.0;            ///< Device time of all executions.
@@ -56,7 +56,7 @@ class Renderer {
 
   /// A technique of TechniqueInput::image on pictures: color RGB(A) linear, depth one channel of view depth in
   /// metres, same size.
-  Rendering apply(const engine::Image& color, const engine::Image& depth, double fovyDeg,
+  Rendering apply(const engine::FloatImage& color, const engine::FloatImage& depth, double fovyDeg,
                   const engine::Lens& lens, const RenderOptions& options);
 
   /// The graph that render() would execute (first frame), compiled for this device; for dumps.
