@@ -14,6 +14,9 @@
 
 namespace host {
 
+/// px. The device's own limit is checked when it renders.
+inline constexpr int kMaxResolution = 16384;
+
 struct ScenePart {
   std::filesystem::path path;  ///< Absolute, or relative to the working directory: resolved by the parser.
   glm::dvec3 translation{0.0};
@@ -37,7 +40,7 @@ struct Shot {
   std::vector<ScenePart> scene;
   ShotCamera camera;
   engine::Lens lens;
-  int width = 640, height = 360;     ///< px, 1…16384.
+  int width = 640, height = 360;     ///< px, 1…kMaxResolution.
   std::array<float, 3> background = {0.0f, 0.0f, 0.0f};  ///< Linear radiance.
   std::optional<std::filesystem::path> environment;
   Shading shading = Shading::unlit;
