@@ -31,11 +31,18 @@ struct Placement {
 /// Throws Error (fields "rotation", "translation", "scale"): non-finite numbers, zero quaternion.
 glm::dmat4 worldFromPlacement(const Placement& placement);
 
+struct GltfOptions {
+  /// False leaves out normal, metallic-roughness and occlusion textures: nothing of them shows in unlit
+  /// pictures, and decoding them is most of the time and memory of large files.
+  bool loadShadingTextures = true;
+};
+
 /// Adds the default scene of a file to a scene (the first one if none is default; all root nodes if it has no
 /// scenes). Returns warnings, each one line that begins with the file. Throws Error and leaves the scene
 /// unchanged when the file is missing, damaged or needs an extension that is not read. A file without
 /// anything to draw is legal.
 std::vector<std::string> appendGltf(Scene& scene, const std::filesystem::path& path,
-                                    const glm::dmat4& worldFromFile = glm::dmat4(1.0));
+                                    const glm::dmat4& worldFromFile = glm::dmat4(1.0),
+                                    const GltfOptions& options = {});
 
 }  // namespace engine
