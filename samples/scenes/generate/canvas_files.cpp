@@ -42,6 +42,7 @@ void writeExr(const std::filesystem::path& file, int width, int height,
               const std::vector<glm::vec3>& radiance) {
   OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::HALF);
   spec.attribute("compression", "zip");
+  spec.attribute("DateTime", "1970:01:01 00:00:00");  // Otherwise the writer stamps the current time.
   const auto output = OIIO::ImageOutput::create(file.string());
   if (!output || !output->open(file.string(), spec) ||
       !output->write_image(OIIO::TypeDesc::FLOAT, radiance.data()) || !output->close()) {

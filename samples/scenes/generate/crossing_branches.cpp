@@ -21,7 +21,7 @@ struct Branch {
 };
 
 void growBranch(Mesh& mesh, Random& random, const Branch& branch) {
-  constexpr int kSegments = 7;
+  constexpr int kSegments = 6;
   std::vector<TubePoint> path = {{branch.start, branch.radius}};
   glm::vec3 direction = branch.direction;
   const float step = branch.length / kSegments;
@@ -43,10 +43,13 @@ void growBranch(Mesh& mesh, Random& random, const Branch& branch) {
   const float tone = random.between(0.8f, 1.2f);
   const glm::vec3 bark =
       branch.generation == 0 ? glm::vec3(0.30f, 0.21f, 0.15f) : glm::vec3(0.36f, 0.24f, 0.16f);
-  append(mesh, colored(makeTube(path, branch.generation == 0 ? 10 : 5), glm::vec4(bark * tone, 1.0f)));
+  append(mesh, colored(makeTube(path, branch.generation == 0  ? 10
+                                      : branch.generation < 3 ? 5
+                                                              : 4),
+                       glm::vec4(bark * tone, 1.0f)));
   if (branch.generation < 2) return;
   const glm::mat4 bud = standingAlong(path.back().position, direction);
-  Mesh tip = makeSphere(4, 6);
+  Mesh tip = makeSphere(4, 5);
   for (Vertex& vertex : tip.vertices) vertex.position *= glm::vec3(0.007f, 0.013f, 0.007f);
   append(mesh, colored(transformed(tip, bud), {0.75f, 0.22f, 0.20f, 1.0f}));
 }
@@ -54,6 +57,33 @@ void growBranch(Mesh& mesh, Random& random, const Branch& branch) {
 /// A straight limb between two points, with twigs only where asked.
 void addLimb(Mesh& mesh, Random& random, glm::vec3 from, glm::vec3 to, float radius, int generation) {
   growBranch(mesh, random, {from, glm::normalize(to - from), glm::length(to - from), radius, generation});
+}
+
+/// Three pairs of straight rods, each an X in the picture: one rod crosses the middle before 2.5 m, the other
+/// behind it, by less from pair to pair, until in the last they touch.
+void addCrossedRods(Mesh& mesh) {
+  struct Rod {
+    float slope;        ///< Horizontal tangent from its middle to its top.
+    float bottomDepth;  ///< m
+    float topDepth;     ///< m
+    glm::vec4 color;
+  };
+  constexpr float kBottom = -0.275f;  // Vertical tangents of the ends.
+  constexpr float kTop = -0.005f;
+  constexpr std::array<float, 3> kGaps = {0.30f, 0.12f,
+                                          0.006f};  // m, about half the distance at the crossing
+  for (size_t pair = 0; pair < kGaps.size(); ++pair) {
+    const float middle = -0.4f + 0.4f * static_cast<float>(pair);
+    const float gap = kGaps[pair];
+    const std::array<Rod, 2> rods = {Rod{0.075f, 1.85f - gap, 3.85f - gap * 2.0f, {0.85f, 0.75f, 0.5f, 1}},
+                                     Rod{-0.075f, 3.85f + gap * 2.0f, 1.85f + gap, {0.35f, 0.5f, 0.55f, 1}}};
+    for (const Rod& rod : rods) {
+      const glm::vec3 bottom = glm::vec3(middle - rod.slope, kBottom, -1.0f) * rod.bottomDepth;
+      const glm::vec3 top = glm::vec3(middle + rod.slope, kTop, -1.0f) * rod.topDepth;
+      const std::array<TubePoint, 2> path = {TubePoint{bottom, 0.006f}, TubePoint{top, 0.006f}};
+      append(mesh, colored(makeTube(path, 8), rod.color));
+    }
+  }
 }
 
 Canvas paintLandscape() {
@@ -83,21 +113,13 @@ Scene makeCrossingBranches() {
   Mesh branches;
   // Crossings: each pair meets in the picture where one passes just before and one just behind 2.5 m.
   addLimb(branches, random, {-0.75f, -0.62f, -1.45f}, {0.62f, 0.60f, -3.9f}, 0.021f, 0);
-  addLimb(branches, random, {0.95f, -0.72f, -3.7f}, {-0.42f, 0.52f, -1.5f}, 0.021f, 0);
+  addLimb(branches, random, {1.15f, -1.3f, -3.9f}, {-0.42f, 0.52f, -1.5f}, 0.021f, 0);
   addLimb(branches, random, {-1.9f, 0.15f, -2.75f}, {1.7f, 0.38f, -2.3f}, 0.016f, 0);
   addLimb(branches, random, {0.62f, -0.5f, -1.2f}, {0.85f, 1.0f, -2.6f}, 0.014f, 1);
   addLimb(branches, random, {-0.55f, 0.42f, -1.02f}, {0.2f, 0.10f, -1.3f}, 0.007f, 2);
   addLimb(branches, random, {-2.4f, -1.5f, -5.2f}, {-1.4f, 1.3f, -4.6f}, 0.045f, 0);
   addLimb(branches, random, {2.0f, -1.5f, -4.4f}, {1.5f, 1.4f, -5.4f}, 0.04f, 0);
-  // Plain straight rods through focus: pairs that touch at 2.5 m, seen on either side of the middle.
-  for (int i = 0; i < 6; ++i) {
-    const float x = -0.95f + 0.38f * static_cast<float>(i);
-    const float lean = i % 2 == 0 ? 0.16f : -0.16f;
-    const std::array<TubePoint, 2> rod = {TubePoint{{(x - lean) * 0.72f, -0.52f, -1.75f}, 0.006f},
-                                          TubePoint{{(x + lean) * 1.28f, 0.02f, -3.25f}, 0.006f}};
-    append(branches, colored(makeTube(rod, 8), i % 2 == 0 ? glm::vec4(0.85f, 0.75f, 0.5f, 1)
-                                                          : glm::vec4(0.35f, 0.5f, 0.55f, 1)));
-  }
+  addCrossedRods(branches);
   bakeLight(branches, {.sun = {1.0f, 0.95f, 0.8f}});
   scene.glb.add("branches", branches, scene.glb.addMaterial({.name = "bark"}), {.colors = true});
   const int hills = scene.glb.addMaterial(

@@ -16,6 +16,28 @@ namespace {
 constexpr float kCellSize = 0.045f;  // m: the bear stands 0.7 m high.
 constexpr float kShoulder = 6.5f;    // Cells above the soles.
 
+/// Head and trunk are blocks of cells: most of the way to a ball and to a barrel.
+void roundOff(QuadCage& cage) {
+  constexpr float kShare = 0.7f;
+  const glm::vec3 headCenter(0.0f, 11.5f, 0.0f);
+  for (glm::vec3& p : cage.positions) {
+    if (p.y > 14.1f) {  // ears sink with the skull beneath them
+      p.x *= 0.86f;
+      p.y -= 0.55f;
+    } else if (p.y > 8.9f && p.z < 3.5f) {
+      const glm::vec3 ball = headCenter + glm::normalize((p - headCenter) * glm::vec3(0.9f, 1.1f, 1.1f)) *
+                                              glm::vec3(3.9f, 3.0f, 3.3f);
+      p = glm::mix(p, ball, kShare);
+    } else if (p.y > 2.9f && p.y < 8.1f && std::abs(p.x) < 3.05f && p.z > -2.6f) {
+      const float bulge = 2.75f - 0.09f * (p.y - 4.8f) * (p.y - 4.8f);
+      const glm::vec2 flat(p.x, p.z);
+      if (glm::length(flat) < 1.5f) continue;
+      const glm::vec2 barrel = glm::normalize(flat) * bulge;
+      p = glm::mix(p, glm::vec3(barrel.x, p.y, barrel.y * 0.85f), kShare);
+    }
+  }
+}
+
 QuadCage sculptBear() {
   Cells cells;
   addMirrored(cells, {1, 0, -1}, {2, 3, 0});     // legs
@@ -41,8 +63,9 @@ QuadCage sculptBear() {
     }
     if (p.y > 2.5f && p.y < 8.5f) p.z += 0.12f * (p.y - 5.0f) * (p.z > 0.0f ? -1.0f : 0.3f);
   }
-  cage.relax(0.5f, 3);
-  cage.inflate(0.28f);
+  roundOff(cage);
+  cage.relax(0.5f, 2);
+  cage.inflate(0.22f);
   float lowest = 0.0f;
   for (const glm::vec3& p : cage.positions) lowest = std::min(lowest, p.y);
   for (glm::vec3& p : cage.positions) p = (p - glm::vec3(0, lowest, 0)) * kCellSize;

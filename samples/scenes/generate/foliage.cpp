@@ -97,17 +97,17 @@ void addShrub(Mesh& leaves, Mesh& stems, Random& random) {
     const glm::vec3 direction(spread * 0.75f + random.between(-0.15f, 0.15f), 1.0f,
                               random.between(-0.22f, 0.22f));
     const glm::vec3 tint = i % 4 == 1 ? glm::vec3(0.95f, 0.42f, 0.22f) : glm::vec3(0.8f, 1.0f, 0.75f);
-    addSprig(leaves, stems, random, {start, direction, random.between(0.85f, 1.25f), 0.15f, 14, tint});
+    addSprig(leaves, stems, random, {start, direction, random.between(1.15f, 1.75f), 0.16f, 18, tint});
   }
 }
 
 void addHedge(Mesh& leaves, Mesh& stems, Random& random) {
-  for (int i = 0; i < 26; ++i) {
-    const float x = -4.2f + 8.4f * (static_cast<float>(i) + random.unit()) / 26.0f;
+  for (int i = 0; i < 30; ++i) {
+    const float x = -4.2f + 8.4f * (static_cast<float>(i) + random.unit()) / 30.0f;
     const glm::vec3 start(x, -1.7f, random.between(-8.5f, -5.2f));
     const glm::vec3 direction(random.between(-0.3f, 0.3f), 1.0f, 0.0f);
-    const float length = random.between(1.1f, 2.3f);
-    addSprig(leaves, stems, random, {start, direction, length, 0.34f, 10, {0.5f, 0.8f, 0.55f}});
+    const float length = random.between(1.9f, 3.4f);
+    addSprig(leaves, stems, random, {start, direction, length, 0.36f, 15, {0.5f, 0.8f, 0.55f}});
   }
 }
 

@@ -18,7 +18,7 @@ namespace {
 
 using scenes::Scene;
 
-constexpr size_t kForegroundBlurTriangles = 9000;
+constexpr size_t kForegroundBlurTriangles = 24000;
 constexpr size_t kMaximumTriangles = 20'000'000;  // Keeps a .glb below 1 GiB, far from its 4 GiB limit.
 
 struct Options {

@@ -71,7 +71,7 @@ Mesh balustrade(Mesh& knobs) {
   Mesh iron;
   for (int i = -9; i <= 9; ++i) {
     const float x = static_cast<float>(i) * 0.095f;
-    const std::array<TubePoint, 2> bar = {TubePoint{{x, -0.27f, 0.0f}, 0.0065f},
+    const std::array<TubePoint, 2> bar = {TubePoint{{x, -0.42f, 0.0f}, 0.0065f},
                                           TubePoint{{x, 0.15f, 0.0f}, 0.0065f}};
     append(iron, makeTube(bar, 10));
     const glm::mat4 place = glm::translate(glm::mat4(1.0f), {x, i % 2 == 0 ? -0.02f : 0.06f, 0.0f});

@@ -172,7 +172,7 @@ Scene makeReflective() {
   shot.description =
       "glossy metal and glazed shapes at 1.0-5 m under a studio environment, focus on the teapot";
   shot.camera = {.position = {0.0f, 0.55f, 1.95f}, .target = {0.0f, 0.20f, 0.0f}, .fovyDeg = 36.0f};
-  shot.lens = {.apertureRadius = 0.035, .focusDistance = 1.92};
+  shot.lens = {.apertureRadius = 0.05, .focusDistance = 1.92};
   shot.background = {0.10, 0.10, 0.12};
   shot.lit = true;
   shot.environment = "studio.exr";
