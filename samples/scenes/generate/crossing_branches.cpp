@@ -70,8 +70,8 @@ void addCrossedRods(Mesh& mesh) {
   };
   constexpr float kBottom = -0.275f;  // Vertical tangents of the ends.
   constexpr float kTop = -0.005f;
-  constexpr std::array<float, 3> kGaps = {0.30f, 0.12f,
-                                          0.006f};  // m, about half the distance at the crossing
+  // m; close to half the distance between the rods of a pair where they cross.
+  constexpr std::array<float, 3> kGaps = {0.60f, 0.20f, 0.006f};
   for (size_t pair = 0; pair < kGaps.size(); ++pair) {
     const float middle = -0.4f + 0.4f * static_cast<float>(pair);
     const float gap = kGaps[pair];

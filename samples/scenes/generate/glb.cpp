@@ -82,7 +82,8 @@ size_t Glb::addColors(const Mesh& mesh) {
   std::vector<uint16_t> values;
   for (const Vertex& vertex : mesh.vertices) {
     for (int c = 0; c < 4; ++c) {
-      values.push_back(static_cast<uint16_t>(std::clamp(vertex.color[c], 0.0f, 1.0f) * 65535.0f + 0.5f));
+      values.push_back(
+          static_cast<uint16_t>(std::lround(std::clamp(vertex.color[c], 0.0f, 1.0f) * 65535.0f)));
     }
   }
   return push(root_, "accessors",
