@@ -6,6 +6,8 @@
 #include <charconv>
 #include <cstring>
 
+#include "engine/error.h"
+
 
 namespace engine {
 namespace {
@@ -156,7 +158,10 @@ void Device::choose(const std::string& select) {
   if (physical_ != VK_NULL_HANDLE) return;
   if (devices.empty()) throwDeviceError("no Vulkan device found", "install the package mesa-vulkan-drivers");
   if (!refused.empty()) throwDeviceError("no usable Vulkan device: " + refused, "update the driver, or use another device");
-  throwDeviceError("no Vulkan device matches '" + select + "'", "there are " + names);
+  throw Error({.file = {},  // bad input, not a failure: the name is the user's
+               .field = "device",
+               .reason = "none matches '" + select + "'",
+               .remedy = "choose by index or by part of the name: " + names});
 }
 
 void Device::createDevice() {
