@@ -8,7 +8,6 @@
 
 #include "engine/error.h"
 
-
 namespace engine {
 namespace {
 
