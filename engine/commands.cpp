@@ -1,7 +1,9 @@
 // Command recording and staging uploads.
 #include "engine/commands.h"
 
+#include <algorithm>
 #include <cstring>
+#include <vector>
 
 namespace engine {
 namespace {
@@ -32,6 +34,22 @@ GpuBuffer stage(const Device& device, std::span<const std::byte> bytes) {
                             rendergraph::MemoryKind::upload, "staging");
   std::memcpy(staging.block.address, bytes.data(), bytes.size());
   return staging;
+}
+
+/// One region per mip, one after the other in the buffer.
+std::vector<VkBufferImageCopy> mipRegions(const rendergraph::ImageDesc& desc) {
+  std::vector<VkBufferImageCopy> regions;
+  VkDeviceSize offset = 0;
+  for (uint32_t mip = 0; mip < desc.mips; ++mip) {
+    const uint32_t width = std::max(desc.width >> mip, 1u), height = std::max(desc.height >> mip, 1u);
+    VkBufferImageCopy region{};
+    region.bufferOffset = offset;
+    region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, mip, 0, 1};
+    region.imageExtent = {width, height, 1};
+    regions.push_back(region);
+    offset += VkDeviceSize{width} * height * rendergraph::texelSize(desc.format);
+  }
+  return regions;
 }
 
 }  // namespace
@@ -97,11 +115,10 @@ void upload(const Device& device, const GpuImage& target, std::span<const std::b
   runOnce(device, [&](VkCommandBuffer commands) {
     transition(device, commands, target, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                VK_PIPELINE_STAGE_2_NONE, 0, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
-    VkBufferImageCopy region{};
-    region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-    region.imageExtent = {target.desc.width, target.desc.height, 1};
+    const auto regions = mipRegions(target.desc);
     device.vk().vkCmdCopyBufferToImage(commands, staging.buffer.get(), target.image.get(),
-                                       VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+                                       VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, static_cast<uint32_t>(regions.size()),
+                                       regions.data());
     transition(device, commands, target, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_PIPELINE_STAGE_2_COPY_BIT,
                VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_SHADER_READ_BIT);

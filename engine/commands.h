@@ -35,8 +35,8 @@ void runOnce(const Device& device, const std::function<void(VkCommandBuffer)>& r
 /// Copies bytes into a device-local buffer; done when it returns.
 void upload(const Device& device, const GpuBuffer& target, std::span<const std::byte> bytes);
 
-/// Copies tightly packed texels of mip 0 into an image, layout UNDEFINED to SHADER_READ_ONLY_OPTIMAL. All mips get
-/// that layout; only mip 0 is filled. Done when it returns.
+/// Copies tightly packed texels of every mip, largest first, into an image of one layer; layout UNDEFINED to
+/// SHADER_READ_ONLY_OPTIMAL. Done when it returns.
 void upload(const Device& device, const GpuImage& target, std::span<const std::byte> texels);
 
 }  // namespace engine

@@ -118,7 +118,7 @@ std::string join(const std::vector<std::string>& words) {
 }  // namespace
 
 std::vector<DeviceDescription> listDevices() {
-  const Instance instance(false);
+  const VulkanInstance instance(false);
   std::vector<DeviceDescription> list;
   for (VkPhysicalDevice device : enumerate(instance.handle())) list.push_back(describe(device));
   return list;
@@ -187,9 +187,6 @@ void Device::createDevice() {
   limits_ = properties.limits;
   vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
 }
-
-const std::vector<std::string>& Device::validationMessages() const { return instance_.log().messages; }
-void Device::clearValidationMessages() { instance_.log().messages.clear(); }
 
 void Device::setName(VkObjectType type, uint64_t object, const std::string& name) const {
   // Names cost the driver memory and are read only under validation and debuggers, which load the same extension.

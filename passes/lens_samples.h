@@ -2,7 +2,7 @@
 // shape of the aperture.
 //
 // Sources: Sobol direction numbers after Joe and Kuo 2008, hashed Owen scrambling after Laine and Karras 2011; Halton;
-// the R sequence (Roberts 2018); concentric map of square to disc after Shirley and Chiu 1997.
+// the R2 sequence (Roberts 2018); concentric map of square to disc after Shirley and Chiu 1997.
 // Patterns have four dimensions, two for the lens and two for the pixel, so neither predicts the other.
 #pragma once
 
@@ -18,7 +18,7 @@ namespace passes {
 enum class LensPattern : uint8_t {
   sobol,   ///< Owen-scrambled Sobol; best at powers of two. Lens points are a (0,2)-sequence in base 2.
   halton,  ///< Bases 2, 3 for the lens and 5, 7 for the pixel.
-  r2,      ///< Additive recurrence in four dimensions.
+  r2,      ///< Additive recurrence R2 for the lens, of square roots for the pixel.
 };
 inline constexpr std::array<std::string_view, 3> kLensPatternNames = {"sobol", "halton", "r2"};
 

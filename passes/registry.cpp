@@ -3,12 +3,16 @@
 
 #include <algorithm>
 
+#include "passes/accumulation/accumulation.h"
+#include "passes/pinhole/pinhole.h"
 #include "passes/two_pass_filter/two_pass_filter.h"
 
 namespace passes {
 
 std::span<const Technique> techniques() {
   static const std::vector<Technique> all = {
+      pinhole::technique(),
+      accumulation::technique(),
       two_pass_filter::technique(),
   };
   return all;

@@ -26,7 +26,7 @@ const rendergraph::ComputeProgram kComposite{"transparency.composite", transpare
 struct Lists {
   Image heads;
   Buffer nodes;
-  Buffer statistics;
+  Buffer allocator;
 };
 
 VkDeviceSize nodeBytes(const DofInputs& inputs) {
@@ -36,25 +36,30 @@ VkDeviceSize nodeBytes(const DofInputs& inputs) {
 }
 
 Lists declareCollect(Graph& graph, const DofInputs& inputs, const std::string& prefix,
-                     const shared::ViewConstants& view, Image depth, Buffer statistics) {
+                     const shared::ViewConstants& view, Image depth) {
   Lists lists;
   lists.heads = graph.createImage(prefix + ".heads", {.format = VK_FORMAT_R32_UINT,
                                                       .width = inputs.extent.width,
                                                       .height = inputs.extent.height});
   lists.nodes = graph.createBuffer(prefix + ".nodes", {.size = nodeBytes(inputs)});
+  lists.allocator = graph.createBuffer(prefix + ".allocator", {.size = sizeof(uint32_t)});
   auto clear = graph.addPass(prefix + ".clear_lists", PassKind::transfer);
   lists.heads = clear.write(lists.heads, Usage::transferDestination);
-  clear.record([heads = lists.heads](PassContext& context) { context.clearImage(heads, VkClearColorValue{}); });
+  lists.allocator = clear.write(lists.allocator, Usage::transferDestination);
+  clear.record([lists](PassContext& context) {
+    context.clearImage(lists.heads, VkClearColorValue{});
+    context.fillBuffer(lists.allocator, 0);
+  });
 
   auto collect = graph.addPass(prefix + ".transparent", PassKind::raster);
   collect.depthReadOnly(depth);
   constexpr auto kFragment = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
   lists.heads = collect.modify(lists.heads, Usage::storage, {}, kFragment);
   lists.nodes = collect.write(lists.nodes, Usage::storage, kFragment);
-  lists.statistics = collect.modify(statistics, Usage::storage, kFragment);
+  lists.allocator = collect.modify(lists.allocator, Usage::storage, kFragment);
   collect.record([scene = inputs.scene, extent = inputs.extent, view, lists](PassContext& context) {
     const std::array bindings = {rendergraph::storage(lists.heads), rendergraph::storage(lists.nodes),
-                                 rendergraph::storage(lists.statistics)};
+                                 rendergraph::storage(lists.allocator)};
     scene->record(context, {.emit = shared::SceneEmit::transparentList,
                             .view = view,
                             .extent = extent,
@@ -63,20 +68,22 @@ Lists declareCollect(Graph& graph, const DofInputs& inputs, const std::string& p
   return lists;
 }
 
-Image declareComposite(Graph& graph, const DofInputs& inputs, const std::string& prefix, Image color,
-                       const Lists& lists) {
+void declareComposite(Graph& graph, const DofInputs& inputs, const std::string& prefix, const Lists& lists,
+                      SceneViewOutputs& out) {
   auto pass = graph.addPass(prefix + ".composite", PassKind::compute);
   pass.read(lists.heads, Usage::storage);
   pass.read(lists.nodes, Usage::storage);
-  color = pass.modify(color, Usage::storage);
-  pass.record([color, lists, extent = inputs.extent](PassContext& context) {
+  pass.read(lists.allocator, Usage::storage);
+  out.color = pass.modify(out.color, Usage::storage);
+  out.statistics = pass.modify(out.statistics, Usage::storage);
+  pass.record([color = out.color, statistics = out.statistics, lists, extent = inputs.extent](PassContext& context) {
     const std::array bindings = {rendergraph::storage(color), rendergraph::storage(lists.heads),
-                                 rendergraph::storage(lists.nodes)};
+                                 rendergraph::storage(lists.nodes), rendergraph::storage(lists.allocator),
+                                 rendergraph::storage(statistics)};
     context.dispatch({.program = kComposite,
                       .bindings = bindings,
                       .groups = rendergraph::groupsFor(extent, shared::kTransparencyTile)});
   });
-  return color;
 }
 
 }  // namespace
@@ -107,9 +114,7 @@ SceneViewOutputs declareSceneView(Graph& graph, const DofInputs& inputs, const s
   });
   if (!inputs.scene->hasTransparency) return out;
 
-  const Lists lists = declareCollect(graph, inputs, prefix, view, out.depth, statistics);
-  out.statistics = lists.statistics;
-  out.color = declareComposite(graph, inputs, prefix, out.color, lists);
+  declareComposite(graph, inputs, prefix, declareCollect(graph, inputs, prefix, view, out.depth), out);
   return out;
 }
 

@@ -52,4 +52,21 @@ DofOutputs declare(rendergraph::Graph& graph, const DofInputs& inputs, const Par
   return declareViewMean(graph, own, meanOf(parameters, own.aperture));
 }
 
+Technique technique() {
+  return {.name = "accumulation",
+          .title = "Accumulation (reference)",
+          .source = "Haeberli & Akeley 1990, The accumulation buffer; Cook 1984, Distributed ray tracing",
+          .input = TechniqueInput::scene,
+          .parameters = describe<Parameters>(fields()),
+          .validate = [](const ParameterSet&, const DofInputs&) { return std::vector<Problem>{}; },
+          .declare =
+              [](rendergraph::Graph& graph, const DofInputs& inputs, const ParameterSet& set) {
+                return declare(graph, inputs, fromSet<Parameters>(set, fields()));
+              },
+          .frameCount =
+              [](const ParameterSet& set, const DofInputs& inputs) {
+                return frameCount(fromSet<Parameters>(set, fields()), inputs);
+              }};
+}
+
 }  // namespace passes::accumulation

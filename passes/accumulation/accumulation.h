@@ -9,6 +9,7 @@
 #include "passes/dof_io.h"
 #include "passes/lens_samples.h"
 #include "passes/parameters.h"
+#include "passes/registry.h"
 
 namespace passes::accumulation {
 
@@ -26,5 +27,8 @@ uint32_t frameCount(const Parameters& parameters, const DofInputs& inputs);
 /// Aperture 0 gives the pinhole picture of the same pixel samples, bit for bit.
 /// Precondition: inputs.scene is set and outlives the recording.
 DofOutputs declare(rendergraph::Graph& graph, const DofInputs& inputs, const Parameters& parameters);
+
+/// The registry's entry.
+Technique technique();
 
 }  // namespace passes::accumulation

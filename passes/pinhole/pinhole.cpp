@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "passes/lens_view.h"
+#include "passes/sanitize.h"
 #include "passes/scene_view.h"
 #include "passes/view_mean.h"
 
@@ -42,14 +43,32 @@ DofOutputs declare(rendergraph::Graph& graph, const DofInputs& inputs, const Par
   DofInputs sharp = inputs;
   sharp.lens.cocScale = 0.0f;
   const auto centre = viewFromLens(sharp, {0.0f, 0.0f}, {0.0f, 0.0f});
-  const auto view = declareSceneView(graph, sharp, "pinhole", centre, declareStatistics(graph, "pinhole"));
+  auto view = declareSceneView(graph, sharp, "pinhole", centre, declareStatistics(graph, "pinhole"));
   // With more samples the centre's view is kept for its depth alone, and culled when nobody asks for that.
   if (parameters.pixelSamples == 1) {
+    declareSanitize(graph, "pinhole", view.color, view.statistics);
     return {.color = view.color, .depth = view.depth, .standardError = {}, .statistics = view.statistics};
   }
   auto out = declareViewMean(graph, sharp, meanOf(parameters));
   out.depth = view.depth;
   return out;
+}
+
+Technique technique() {
+  return {.name = "pinhole",
+          .title = "Pinhole",
+          .source = "no lens",
+          .input = TechniqueInput::scene,
+          .parameters = describe<Parameters>(fields()),
+          .validate = [](const ParameterSet&, const DofInputs&) { return std::vector<Problem>{}; },
+          .declare =
+              [](rendergraph::Graph& graph, const DofInputs& inputs, const ParameterSet& set) {
+                return declare(graph, inputs, fromSet<Parameters>(set, fields()));
+              },
+          .frameCount =
+              [](const ParameterSet& set, const DofInputs& inputs) {
+                return frameCount(fromSet<Parameters>(set, fields()), inputs);
+              }};
 }
 
 }  // namespace passes::pinhole

@@ -7,6 +7,7 @@
 #include "passes/dof_io.h"
 #include "passes/lens_samples.h"
 #include "passes/parameters.h"
+#include "passes/registry.h"
 
 namespace passes::pinhole {
 
@@ -21,5 +22,8 @@ uint32_t frameCount(const Parameters& parameters, const DofInputs& inputs);
 
 /// Also gives the depth of the pixels' centres. Precondition: inputs.scene is set and outlives the recording.
 DofOutputs declare(rendergraph::Graph& graph, const DofInputs& inputs, const Parameters& parameters);
+
+/// The registry's entry.
+Technique technique();
 
 }  // namespace passes::pinhole

@@ -17,7 +17,7 @@ enum class SceneEmit : uint32_t {
   /// alpha above 0 appends a TransparentNode to the list of its pixel. Bindings of descriptor set 2:
   ///   0  r32ui storage image, full resolution: index of the list's first node + 1; 0 is an empty list
   ///   1  storage buffer of TransparentNode
-  ///   2  storage buffer of FrameStatistics: transparentNodes is the allocator
+  ///   2  storage buffer of one uint, the allocator: nodes asked for so far. Nodes beyond the pool are dropped
   transparentList = 1,
 };
 #endif

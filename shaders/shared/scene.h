@@ -48,7 +48,6 @@ struct LightConstants {
 struct SceneConstants {
   vec4 irradiance[9];       // spherical harmonics of the environment's irradiance / π, world space; rgb
   vec4 worldFromViewRows[3];
-  vec4 background;          // rgb: radiance where nothing is hit
   uint lightCount;
   uint lit;                 // 0: radiance as stored in the materials; 1: shaded
   uint hasEnvironment;

@@ -8,8 +8,8 @@ SHARED_NAMESPACE_BEGIN
 
 struct FrameStatistics {
   uint replacedTexels;        // NaN or Inf texels of the input that were replaced by 0
-  uint transparentNodes;      // fragments that the transparency lists were asked to hold
-  uint transparentDropped;    // … of which this many found no room (the picture is then incomplete)
+  uint transparentNodes;      // most alpha-blended fragments that the lists of one view were asked to hold
+  uint transparentDropped;    // most that found no room in one view (the picture is then incomplete)
   uint clampedCoc;            // pixels whose blur radius was limited by maxCocRadius
 };
 

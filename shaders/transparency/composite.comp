@@ -11,6 +11,8 @@ layout(local_size_x = kTransparencyTile, local_size_y = kTransparencyTile) in;
 layout(set = 0, binding = 0, rgba32f) uniform image2D color;
 layout(set = 0, binding = 1, r32ui) uniform readonly uimage2D heads;
 layout(std430, set = 0, binding = 2) readonly buffer Nodes { TransparentNode nodes[]; };
+layout(std430, set = 0, binding = 3) readonly buffer Allocator { uint nodesAskedFor; };
+layout(std430, set = 0, binding = 4) buffer Statistics { FrameStatistics statistics; };
 
 // True when a stands strictly before b: farther, or equally far with smaller colour bits.
 bool precedes(TransparentNode a, TransparentNode b) {
@@ -25,6 +27,11 @@ bool precedes(TransparentNode a, TransparentNode b) {
 
 void main() {
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  if (pixel == ivec2(0)) {
+    atomicMax(statistics.transparentNodes, nodesAskedFor);
+    const uint room = uint(nodes.length());
+    atomicMax(statistics.transparentDropped, nodesAskedFor > room ? nodesAskedFor - room : 0u);
+  }
   if (any(greaterThanEqual(pixel, imageSize(color)))) return;
   const uint head = imageLoad(heads, pixel).r;
   if (head == 0u) return;

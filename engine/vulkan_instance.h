@@ -1,6 +1,7 @@
 // The Vulkan instance, and what the validation layers say.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -13,25 +14,26 @@ struct ValidationLog {
   std::vector<std::string> messages;
 };
 
-class Instance {
+class VulkanInstance {
  public:
   /// `validation`: core and synchronization validation, across submissions too. Throws engine::Error when there is no
   /// Vulkan 1.3 loader, or no validation layer although one is asked for.
-  explicit Instance(bool validation);
-  ~Instance();
-  Instance(const Instance&) = delete;
-  Instance& operator=(const Instance&) = delete;
+  explicit VulkanInstance(bool validation);
+  ~VulkanInstance();
+  VulkanInstance(const VulkanInstance&) = delete;
+  VulkanInstance& operator=(const VulkanInstance&) = delete;
 
   VkInstance handle() const { return instance_; }
   bool validates() const { return messenger_ != VK_NULL_HANDLE; }
-  ValidationLog& log() { return log_; }
+  /// Outlives the instance, so that what is said at its destruction (leaked objects) can be read.
+  const std::shared_ptr<ValidationLog>& log() const { return log_; }
 
  private:
   void create(bool validation);
 
   VkInstance instance_ = VK_NULL_HANDLE;
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
-  ValidationLog log_;
+  std::shared_ptr<ValidationLog> log_ = std::make_shared<ValidationLog>();
 };
 
 }  // namespace engine

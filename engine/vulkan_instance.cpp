@@ -1,5 +1,5 @@
-// Instance creation and the validation messenger.
-#include "engine/instance.h"
+// VulkanInstance creation and the validation messenger.
+#include "engine/vulkan_instance.h"
 
 #include <cstdlib>
 #include <cstring>
@@ -56,9 +56,9 @@ VkDebugUtilsMessengerCreateInfoEXT messengerInfo(ValidationLog& log) {
 
 }  // namespace
 
-Instance::Instance(bool validation) { create(validation); }
+VulkanInstance::VulkanInstance(bool validation) { create(validation); }
 
-void Instance::create(bool validation) {
+void VulkanInstance::create(bool validation) {
   if (volkInitialize() != VK_SUCCESS) {
     throwDeviceError("no Vulkan loader found (libvulkan.so.1)", "install the package libvulkan1");
   }
@@ -87,7 +87,7 @@ void Instance::create(bool validation) {
   VkValidationFeaturesEXT features{VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT};
   features.enabledValidationFeatureCount = 1;
   features.pEnabledValidationFeatures = enables;
-  const auto messenger = messengerInfo(log_);
+  const auto messenger = messengerInfo(*log_);
   if (validation) {
     // Without this variable the layer does not look across command buffers of one queue.
     setenv("VK_LAYER_ENABLES", "VALIDATION_CHECK_ENABLE_SYNCHRONIZATION_VALIDATION_QUEUE_SUBMIT", 0);
@@ -104,7 +104,7 @@ void Instance::create(bool validation) {
   }
 }
 
-Instance::~Instance() {
+VulkanInstance::~VulkanInstance() {
   if (messenger_ != VK_NULL_HANDLE) vkDestroyDebugUtilsMessengerEXT(instance_, messenger_, nullptr);
   if (instance_ != VK_NULL_HANDLE) vkDestroyInstance(instance_, nullptr);
 }
