@@ -36,6 +36,13 @@ struct mat4 {
 };
 using uint = uint32_t;
 
+// GLSL's functions on floats, for formulas that both languages compile.
+using std::cos;
+using std::floor;
+using std::sin;
+using std::sqrt;
+inline float atan(float y, float x) { return std::atan2(y, x); }
+
 }  // namespace shared
 
 #define SHARED_NAMESPACE_BEGIN namespace shared {

@@ -1,0 +1,47 @@
+// The pinhole camera of a shot. Right-handed view space, looking down −Z, viewDepth = −z_view.
+//
+// Matrices are double: shots stand at coordinates around 1e6, where a float metre has 6 cm steps. Multiply
+// viewFromWorld · worldFromObject in double and round the product. Lens and projection are elsewhere
+// (lens.h).
+#pragma once
+
+#include <cstdint>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <string_view>
+
+#include "engine/scene.h"
+
+namespace engine {
+
+inline constexpr double kDefaultNearPlane =
+    0.01;  ///< m. Below it reversed depth still has full float precision.
+
+struct Camera {
+  glm::dmat4 viewFromWorld{1.0};         ///< Rigid: rotation and translation, no scale.
+  double fovy = 0.6981317007977318;      ///< Vertical field of view, rad. 40 degrees.
+  double nearPlane = kDefaultNearPlane;  ///< m along the axis; nothing nearer is drawn.
+
+  /// Position of the lens centre in the world.
+  glm::dvec3 position() const;
+};
+
+struct LookAt {
+  glm::dvec3 position{0.0, 0.0, 0.0};  ///< m
+  glm::dvec3 target{0.0, 0.0, -1.0};   ///< m; any point on the axis in front of the camera
+  glm::dvec3 up{0.0, 1.0, 0.0};        ///< Need be neither normalised nor perpendicular to the axis.
+  double fovyDeg = 40.0;               ///< In (0, 180).
+};
+
+/// Throws Error (fields named camera.position, camera.target, camera.up, camera.fovyDeg): non-finite numbers,
+/// target at the position, up zero or along the axis, field of view outside (0, 180) degrees.
+Camera cameraFromLookAt(const LookAt& lookAt, double nearPlane = kDefaultNearPlane);
+
+/// The scene's camera of that name (glTF camera's name, else its node's name). Scale in its transform is
+/// ignored. Its near plane is the file's. Throws Error that lists the names there are.
+Camera cameraFromScene(const Scene& scene, std::string_view name);
+
+/// S = h / (2 tan(fovy/2)): pixels per unit of tangent, equal in x and y (square pixels).
+double pixelsPerTangent(const Camera& camera, uint32_t imageHeight);
+
+}  // namespace engine

@@ -1,0 +1,204 @@
+// Device selection and creation. The features asked for are those that the graph and the techniques need.
+#include "engine/device.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cstring>
+
+
+namespace engine {
+namespace {
+
+/// The feature structs, chained. Filled by the driver to see what there is, or by us to ask for it.
+struct Features {
+  VkPhysicalDeviceVulkan13Features v13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
+  VkPhysicalDeviceVulkan12Features v12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
+  VkPhysicalDeviceFeatures2 core{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
+
+  Features() {
+    core.pNext = &v12;
+    v12.pNext = &v13;
+  }
+  Features(const Features&) = delete;
+  Features& operator=(const Features&) = delete;
+};
+
+struct NeededFeature {
+  const char* name;
+  VkBool32& (*in)(Features&);
+};
+
+const NeededFeature kNeeded[] = {
+    {"dynamicRendering", [](Features& f) -> VkBool32& { return f.v13.dynamicRendering; }},
+    {"synchronization2", [](Features& f) -> VkBool32& { return f.v13.synchronization2; }},
+    {"timelineSemaphore", [](Features& f) -> VkBool32& { return f.v12.timelineSemaphore; }},
+    {"hostQueryReset", [](Features& f) -> VkBool32& { return f.v12.hostQueryReset; }},
+    {"geometryShader", [](Features& f) -> VkBool32& { return f.core.features.geometryShader; }},
+    {"fragmentStoresAndAtomics", [](Features& f) -> VkBool32& { return f.core.features.fragmentStoresAndAtomics; }},
+};
+
+const char* typeName(VkPhysicalDeviceType type) {
+  switch (type) {
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return "discrete";
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return "integrated";
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: return "virtual";
+    case VK_PHYSICAL_DEVICE_TYPE_CPU: return "cpu";
+    default: return "other";
+  }
+}
+
+int capability(const std::string& type) {
+  const char* const order[] = {"other", "cpu", "virtual", "integrated", "discrete"};
+  return static_cast<int>(std::find(std::begin(order), std::end(order), type) - std::begin(order));
+}
+
+/// Index of a queue family for graphics, compute and timestamps; -1 when there is none.
+int findQueueFamily(VkPhysicalDevice physical) {
+  uint32_t count = 0;
+  vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
+  std::vector<VkQueueFamilyProperties> families(count);
+  vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, families.data());
+  constexpr VkQueueFlags kWanted = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+  for (uint32_t i = 0; i < count; ++i) {
+    if ((families[i].queueFlags & kWanted) == kWanted && families[i].timestampValidBits > 0) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+DeviceDescription describe(VkPhysicalDevice physical) {
+  VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
+  VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
+  properties.pNext = &driver;
+  vkGetPhysicalDeviceProperties2(physical, &properties);
+  DeviceDescription description;
+  description.name = properties.properties.deviceName;
+  description.type = typeName(properties.properties.deviceType);
+  description.driver = std::string(driver.driverName) + " " + driver.driverInfo;
+  if (properties.properties.apiVersion < VK_API_VERSION_1_3) {
+    description.missing.emplace_back("Vulkan 1.3");
+    return description;
+  }
+  Features features;
+  vkGetPhysicalDeviceFeatures2(physical, &features.core);
+  for (const auto& needed : kNeeded) {
+    if (needed.in(features) == VK_FALSE) description.missing.emplace_back(needed.name);
+  }
+  if (findQueueFamily(physical) < 0) description.missing.emplace_back("a queue for graphics and compute with timestamps");
+  return description;
+}
+
+std::vector<VkPhysicalDevice> enumerate(VkInstance instance) {
+  uint32_t count = 0;
+  vkEnumeratePhysicalDevices(instance, &count, nullptr);
+  std::vector<VkPhysicalDevice> devices(count);
+  vkEnumeratePhysicalDevices(instance, &count, devices.data());
+  devices.resize(count);
+  return devices;
+}
+
+std::string lowered(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+bool matches(const std::string& select, std::size_t index, const DeviceDescription& description) {
+  std::size_t wanted = 0;
+  const auto parsed = std::from_chars(select.data(), select.data() + select.size(), wanted);
+  if (parsed.ec == std::errc{} && parsed.ptr == select.data() + select.size()) return wanted == index;
+  return lowered(description.name).find(lowered(select)) != std::string::npos;
+}
+
+std::string join(const std::vector<std::string>& words) {
+  std::string joined;
+  for (const auto& word : words) joined += (joined.empty() ? "" : ", ") + word;
+  return joined;
+}
+
+}  // namespace
+
+std::vector<DeviceDescription> listDevices() {
+  const VulkanInstance instance(false);
+  std::vector<DeviceDescription> list;
+  for (VkPhysicalDevice device : enumerate(instance.handle())) list.push_back(describe(device));
+  return list;
+}
+
+Device::Device(const DeviceOptions& options) : instance_(options.validation) {
+  choose(options.select);
+  createDevice();
+}
+
+Device::~Device() {
+  if (device_ != VK_NULL_HANDLE) {
+    table_.vkDeviceWaitIdle(device_);
+    table_.vkDestroyDevice(device_, nullptr);
+  }
+}
+
+void Device::choose(const std::string& select) {
+  const auto devices = enumerate(instance_.handle());
+  std::string names;
+  std::string refused;
+  for (std::size_t i = 0; i < devices.size(); ++i) {
+    const auto description = describe(devices[i]);
+    names += (names.empty() ? "" : "; ") + std::to_string(i) + ": " + description.name;
+    if (!select.empty() && !matches(select, i, description)) continue;
+    if (!description.missing.empty()) {
+      refused += (refused.empty() ? "" : "; ") + description.name + " lacks " + join(description.missing);
+      continue;
+    }
+    if (physical_ == VK_NULL_HANDLE || capability(description.type) > capability(description_.type)) {
+      physical_ = devices[i];
+      description_ = description;
+    }
+  }
+  if (physical_ != VK_NULL_HANDLE) return;
+  if (devices.empty()) throwDeviceError("no Vulkan device found", "install the package mesa-vulkan-drivers");
+  if (!refused.empty()) throwDeviceError("no usable Vulkan device: " + refused, "update the driver, or use another device");
+  throwDeviceError("no Vulkan device matches '" + select + "'", "there are " + names);
+}
+
+void Device::createDevice() {
+  queueFamily_ = static_cast<uint32_t>(findQueueFamily(physical_));
+  const float priority = 1.0f;
+  VkDeviceQueueCreateInfo queueInfo{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
+  queueInfo.queueFamilyIndex = queueFamily_;
+  queueInfo.queueCount = 1;
+  queueInfo.pQueuePriorities = &priority;
+
+  Features available;
+  vkGetPhysicalDeviceFeatures2(physical_, &available.core);
+  Features wanted;
+  for (const auto& needed : kNeeded) needed.in(wanted) = VK_TRUE;
+  // Welcome, not needed.
+  wanted.core.features.samplerAnisotropy = available.core.features.samplerAnisotropy;
+
+  VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
+  info.pNext = &wanted.core;
+  info.queueCreateInfoCount = 1;
+  info.pQueueCreateInfos = &queueInfo;
+  check(vkCreateDevice(physical_, &info, nullptr, &device_), "vkCreateDevice");
+  volkLoadDeviceTable(&table_, device_);
+  table_.vkGetDeviceQueue(device_, queueFamily_, 0, &queue_);
+
+  VkPhysicalDeviceProperties properties;
+  vkGetPhysicalDeviceProperties(physical_, &properties);
+  limits_ = properties.limits;
+  vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
+}
+
+const std::vector<std::string>& Device::validationMessages() const { return instance_.log().messages; }
+void Device::clearValidationMessages() { instance_.log().messages.clear(); }
+
+void Device::setName(VkObjectType type, uint64_t object, const std::string& name) const {
+  // Names cost the driver memory and are read only under validation and debuggers, which load the same extension.
+  if (vkSetDebugUtilsObjectNameEXT == nullptr || object == 0) return;
+  VkDebugUtilsObjectNameInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT};
+  info.objectType = type;
+  info.objectHandle = object;
+  info.pObjectName = name.c_str();
+  vkSetDebugUtilsObjectNameEXT(device_, &info);
+}
+
+}  // namespace engine

@@ -1,0 +1,70 @@
+// One Vulkan device with one queue for graphics, compute and transfer.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/vulkan_instance.h"
+#include "engine/vulkan_api.h"
+
+namespace engine {
+
+struct DeviceOptions {
+  /// Index in listDevices(), or part of a device's name (any case). Empty: the most capable usable device
+  /// (discrete, then integrated, virtual, CPU).
+  std::string select;
+  bool validation = false;  ///< Core and synchronization validation; messages in Device::validationMessages().
+};
+
+struct DeviceDescription {
+  std::string name;      ///< As the driver says it.
+  std::string type;      ///< "discrete", "integrated", "virtual", "cpu", "other".
+  std::string driver;    ///< Driver name and version.
+  std::vector<std::string> missing;  ///< Features we need that it lacks; empty when usable.
+};
+
+/// All Vulkan devices of this machine, usable or not, in the loader's order. Throws engine::Error without a loader.
+std::vector<DeviceDescription> listDevices();
+
+class Device {
+ public:
+  /// Throws engine::Error when no device fits, naming what the best candidate lacks.
+  explicit Device(const DeviceOptions& options = {});
+  ~Device();
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+
+  const DeviceDescription& description() const { return description_; }
+  VkInstance instance() const { return instance_.handle(); }
+  VkPhysicalDevice physical() const { return physical_; }
+  VkDevice handle() const { return device_; }
+  VkQueue queue() const { return queue_; }
+  uint32_t queueFamily() const { return queueFamily_; }
+  const VolkDeviceTable& vk() const { return table_; }
+  const VkPhysicalDeviceLimits& limits() const { return limits_; }
+  const VkPhysicalDeviceMemoryProperties& memory() const { return memory_; }
+
+  /// Everything the validation layers have said since the last clearing; empty without validation.
+  const std::vector<std::string>& validationMessages() const;
+  void clearValidationMessages();
+
+  /// A name for debuggers and validation messages; does nothing without debug utils.
+  void setName(VkObjectType type, uint64_t object, const std::string& name) const;
+
+ private:
+  void choose(const std::string& select);
+  void createDevice();
+
+  mutable VulkanInstance instance_;
+  DeviceDescription description_;
+  VkPhysicalDevice physical_ = VK_NULL_HANDLE;
+  VkDevice device_ = VK_NULL_HANDLE;
+  VkQueue queue_ = VK_NULL_HANDLE;
+  uint32_t queueFamily_ = 0;
+  VolkDeviceTable table_{};
+  VkPhysicalDeviceLimits limits_{};
+  VkPhysicalDeviceMemoryProperties memory_{};
+};
+
+}  // namespace engine

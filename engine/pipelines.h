@@ -1,0 +1,77 @@
+// Pipelines, layouts and samplers, made on first use and kept; VkPipelineCache on disk.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "engine/device.h"
+#include "engine/vulkan_api.h"
+#include "rendergraph/program.h"
+
+namespace engine {
+
+/// The push constant range of every pipeline of the engine: the minimum that Vulkan guarantees, all stages.
+inline constexpr uint32_t kPushConstantBytes = 128;
+
+/// Stages that see the push constants of every pipeline layout made here.
+inline constexpr VkShaderStageFlags kAllShaderStages = VK_SHADER_STAGE_ALL;
+
+struct BoundPipeline {
+  VkPipeline pipeline = VK_NULL_HANDLE;
+  VkPipelineLayout layout = VK_NULL_HANDLE;
+  VkDescriptorSetLayout setLayout = VK_NULL_HANDLE;  ///< Of set 0.
+};
+
+using BindingKind = rendergraph::Binding::Kind;
+VkDescriptorType descriptorTypeOf(BindingKind kind);
+
+/// Not thread-safe. The device outlives it.
+class PipelineStore {
+ public:
+  /// `cacheFile` empty: no disk cache. A missing, unreadable or foreign file is ignored; the driver checks its header.
+  PipelineStore(const Device& device, std::filesystem::path cacheFile);
+  /// Writes the cache file (to a temporary name, then renamed); failing that, says nothing: it is only a cache.
+  ~PipelineStore();
+  PipelineStore(const PipelineStore&) = delete;
+  PipelineStore& operator=(const PipelineStore&) = delete;
+
+  /// The pipeline of a program for these kinds of bindings and specialization constants 0, 1, ….
+  const BoundPipeline& compute(const rendergraph::ComputeProgram& program, std::span<const BindingKind> kinds,
+                               std::span<const uint32_t> specialization);
+  const BoundPipeline& raster(const rendergraph::RasterProgram& program, std::span<const BindingKind> kinds,
+                              std::span<const uint32_t> specialization, std::span<const VkFormat> colorFormats,
+                              VkFormat depthFormat);
+
+  VkSampler sampler(const rendergraph::SamplerDesc& desc);
+  /// A set layout whose binding i has kind i, visible to all stages.
+  VkDescriptorSetLayout setLayout(std::span<const BindingKind> kinds);
+  VkPipelineCache cache() const { return cache_.get(); }
+
+ private:
+  struct Entry {
+    Unique<VkPipelineLayout> layout;
+    Unique<VkPipeline> pipeline;
+    BoundPipeline bound;
+  };
+  void beginKey(const void* program, std::span<const BindingKind> kinds, std::span<const uint32_t> specialization);
+  Unique<VkPipelineLayout> makeLayout(VkDescriptorSetLayout setLayout);
+
+  const Device& device_;
+  std::filesystem::path cacheFile_;
+  Unique<VkPipelineCache> cache_;
+  std::string key_;  ///< Reused, so that a lookup allocates nothing.
+  std::unordered_map<std::string, Entry> entries_;
+  std::unordered_map<std::string, Unique<VkDescriptorSetLayout>> setLayouts_;
+  std::vector<std::pair<rendergraph::SamplerDesc, Unique<VkSampler>>> samplers_;
+};
+
+Unique<VkShaderModule> makeShaderModule(const Device& device, rendergraph::SpirV code, const std::string& name);
+
+/// $XDG_CACHE_HOME/lensgraph/ (or ~/.cache/lensgraph/) and a file name of device and driver; empty without a home.
+std::filesystem::path defaultPipelineCacheFile(const Device& device);
+
+}  // namespace engine

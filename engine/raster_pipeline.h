@@ -1,0 +1,28 @@
+// Graphics pipelines for dynamic rendering, from the few choices that the project's draws differ in.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "engine/device.h"
+#include "engine/vulkan_api.h"
+#include "rendergraph/program.h"
+
+namespace engine {
+
+/// Viewport and scissor are dynamic. Spans and pointers need to live only until the pipeline is made.
+struct RasterPipelineDesc {
+  std::string name;
+  rendergraph::SpirV vertex, geometry, fragment;  ///< Geometry and fragment may be empty.
+  rendergraph::RasterState state;
+  const VkSpecializationInfo* specialization = nullptr;
+  std::span<const VkFormat> colorFormats;
+  VkFormat depthFormat = VK_FORMAT_UNDEFINED;
+  std::span<const VkVertexInputBindingDescription> vertexBindings;
+  std::span<const VkVertexInputAttributeDescription> vertexAttributes;
+};
+
+Unique<VkPipeline> makeRasterPipeline(const Device& device, VkPipelineCache cache, VkPipelineLayout layout,
+                                      const RasterPipelineDesc& desc);
+
+}  // namespace engine

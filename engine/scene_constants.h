@@ -1,0 +1,16 @@
+// The shader-side constants of draws, lights and viewpoint (shaders/shared/scene.h) from the engine's scene.
+#pragma once
+
+#include "engine/scene_gpu.h"
+#include "engine/scene_renderer.h"
+#include "shaders/shared/scene.h"
+
+namespace engine {
+
+/// Matrices are multiplied in double and rounded once.
+shared::DrawConstants drawConstantsOf(const SceneViewpoint& viewpoint, const SceneDrawItem& item);
+shared::LightConstants lightConstantsOf(const SceneViewpoint& viewpoint, const Light& light);
+/// Fills the viewpoint's part: rotation and mode.
+void fillViewpoint(shared::SceneConstants& constants, const SceneViewpoint& viewpoint);
+
+}  // namespace engine

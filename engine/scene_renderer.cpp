@@ -1,0 +1,241 @@
+// Descriptor set 0: the scene; set 1: a material's textures; set 2: what the emit writes to.
+#include "engine/scene_renderer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <glm/gtc/matrix_inverse.hpp>
+
+#include "engine/commands.h"
+#include "engine/raster_pipeline.h"
+#include "engine/scene_constants.h"
+#include "spirv/scene/opaque_radiance_frag.h"
+#include "spirv/scene/scene_vert.h"
+#include "spirv/scene/transparent_list_frag.h"
+
+namespace engine {
+namespace {
+
+using rendergraph::MemoryKind;
+using shared::SceneEmit;
+
+constexpr std::array<VkVertexInputAttributeDescription, 5> kAttributes = {{
+    {0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(SceneVertex, position)},
+    {1, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(SceneVertex, normal)},
+    {2, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(SceneVertex, uv0)},
+    {3, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(SceneVertex, uv1)},
+    {4, 0, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(SceneVertex, color)},
+}};
+constexpr VkVertexInputBindingDescription kVertexBinding{0, sizeof(SceneVertex), VK_VERTEX_INPUT_RATE_VERTEX};
+
+constexpr std::array<BindingKind, 5> kSceneBindings = {BindingKind::storageBuffer, BindingKind::storageBuffer,
+                                                       BindingKind::storageBuffer, BindingKind::uniformBuffer,
+                                                       BindingKind::sampledImage};
+
+rendergraph::SpirV fragmentOf(SceneEmit emit) {
+  switch (emit) {
+    case SceneEmit::opaqueRadiance: return scene_opaque_radiance_frag;
+    case SceneEmit::transparentList: return scene_transparent_list_frag;
+  }
+  return {};
+}
+
+bool isDrawnBy(SceneEmit emit, AlphaMode mode) {
+  return (emit == SceneEmit::transparentList) == (mode == AlphaMode::blend);
+}
+
+GpuBuffer hostBuffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage, const char* name) {
+  return makeBuffer(device, size, usage, MemoryKind::upload, name);
+}
+
+GpuImage environmentImageOf(const Device& device, const std::optional<Environment>& environment) {
+  constexpr VkImageUsageFlags kUsage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+  if (environment) {
+    auto image = makeImage(device, environment->desc, kUsage, "environment");
+    upload(device, image, environment->texels);
+    return image;
+  }
+  auto image = makeImage(device, {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .width = 1, .height = 1}, kUsage,
+                         "no environment");
+  upload(device, image, std::array<std::byte, 8>{});
+  return image;
+}
+
+}  // namespace
+
+struct SceneRenderer::EmitPipeline {
+  SceneEmit emit;
+  bool masked;
+  std::vector<VkFormat> colorFormats;
+  VkFormat depthFormat;
+  VkDescriptorSetLayout emitSetLayout = VK_NULL_HANDLE;  ///< Null when the emit binds nothing.
+  Unique<VkPipelineLayout> layout;
+  Unique<VkPipeline> pipeline;
+};
+
+SceneRenderer::SceneRenderer(GraphBackend& backend, const Scene& scene, const std::optional<Environment>& environment)
+    : backend_(backend),
+      device_(backend.device()),
+      gpu_(backend.device(), backend.pipelines(), scene),
+      lights_(scene.lights) {
+  drawConstants_ = hostBuffer(device_, gpu_.draws().size() * sizeof(shared::DrawConstants),
+                              VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "draw constants");
+  lightConstants_ = hostBuffer(device_, lights_.size() * sizeof(shared::LightConstants),
+                               VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "light constants");
+  sceneConstants_ = hostBuffer(device_, sizeof(shared::SceneConstants), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
+                               "scene constants");
+  makeSceneSet(environment);
+  setViewpoint({});
+}
+
+SceneRenderer::~SceneRenderer() = default;
+
+void SceneRenderer::makeSceneSet(const std::optional<Environment>& environment) {
+  environmentImage_ = environmentImageOf(device_, environment);
+  if (environment) {
+    constants_.hasEnvironment = 1;
+    constants_.environmentMips = static_cast<float>(environment->desc.mips);
+    for (int i = 0; i < 9; ++i) {
+      const auto& c = environment->irradiance[i];
+      constants_.irradiance[i] = {c.x, c.y, c.z, 0.0f};
+    }
+  }
+  sceneSetLayout_ = backend_.pipelines().setLayout(kSceneBindings);
+  const auto& vk = device_.vk();
+  const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 3},
+                                        {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1},
+                                        {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1}};
+  VkDescriptorPoolCreateInfo poolInfo{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
+  poolInfo.maxSets = 1;
+  poolInfo.poolSizeCount = 3;
+  poolInfo.pPoolSizes = sizes;
+  VkDescriptorPool pool = VK_NULL_HANDLE;
+  check(vk.vkCreateDescriptorPool(device_.handle(), &poolInfo, nullptr, &pool), "vkCreateDescriptorPool");
+  pool_ = {device_.handle(), pool, vk.vkDestroyDescriptorPool};
+  VkDescriptorSetAllocateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
+  info.descriptorPool = pool;
+  info.descriptorSetCount = 1;
+  info.pSetLayouts = &sceneSetLayout_;
+  check(vk.vkAllocateDescriptorSets(device_.handle(), &info, &sceneSet_), "vkAllocateDescriptorSets");
+  const auto buffer = [](BindingKind kind, VkBuffer handle) {
+    return rendergraph::ResolvedBinding{.kind = kind, .buffer = handle};
+  };
+  const std::array<rendergraph::ResolvedBinding, 5> bindings = {
+      buffer(BindingKind::storageBuffer, drawConstants_.buffer.get()),
+      buffer(BindingKind::storageBuffer, gpu_.materials()),
+      buffer(BindingKind::storageBuffer, lightConstants_.buffer.get()),
+      buffer(BindingKind::uniformBuffer, sceneConstants_.buffer.get()),
+      rendergraph::ResolvedBinding{.kind = BindingKind::sampledImage,
+                                   .view = environmentImage_.view.get(),
+                                   .layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                                   .sampler = {.filter = VK_FILTER_LINEAR,
+                                               .mipmap = VK_SAMPLER_MIPMAP_MODE_LINEAR,
+                                               .address = VK_SAMPLER_ADDRESS_MODE_REPEAT}}};
+  backend_.writeSet(sceneSet_, bindings);
+}
+
+void SceneRenderer::setViewpoint(const SceneViewpoint& viewpoint) {
+  auto* draws = static_cast<shared::DrawConstants*>(drawConstants_.block.address);
+  for (std::size_t i = 0; i < gpu_.draws().size(); ++i) {
+    draws[i] = drawConstantsOf(viewpoint, gpu_.draws()[i]);
+  }
+  auto* lights = static_cast<shared::LightConstants*>(lightConstants_.block.address);
+  for (std::size_t i = 0; i < lights_.size(); ++i) lights[i] = lightConstantsOf(viewpoint, lights_[i]);
+  fillViewpoint(constants_, viewpoint);
+  constants_.lightCount = static_cast<uint32_t>(lights_.size());
+  std::memcpy(sceneConstants_.block.address, &constants_, sizeof constants_);
+}
+
+SceneRenderer::EmitPipeline& SceneRenderer::pipelineFor(const SceneDrawRequest& request, bool masked) {
+  for (const auto& known : pipelines_) {
+    if (known->emit == request.emit && known->masked == masked && known->depthFormat == request.depthFormat &&
+        std::ranges::equal(known->colorFormats, request.colorFormats)) {
+      return *known;
+    }
+  }
+  auto made = std::make_unique<EmitPipeline>();
+  made->emit = request.emit;
+  made->masked = masked;
+  made->colorFormats.assign(request.colorFormats.begin(), request.colorFormats.end());
+  made->depthFormat = request.depthFormat;
+  std::vector<VkDescriptorSetLayout> sets = {sceneSetLayout_, gpu_.materialSetLayout()};
+  if (!request.emitBindings.empty()) {
+    std::vector<BindingKind> kinds;
+    for (const auto& binding : request.emitBindings) kinds.push_back(binding.kind);
+    made->emitSetLayout = backend_.pipelines().setLayout(kinds);
+    sets.push_back(made->emitSetLayout);
+  }
+  const VkPushConstantRange range{kAllShaderStages, 0, kPushConstantBytes};
+  VkPipelineLayoutCreateInfo layoutInfo{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
+  layoutInfo.setLayoutCount = static_cast<uint32_t>(sets.size());
+  layoutInfo.pSetLayouts = sets.data();
+  layoutInfo.pushConstantRangeCount = 1;
+  layoutInfo.pPushConstantRanges = &range;
+  VkPipelineLayout layout = VK_NULL_HANDLE;
+  check(device_.vk().vkCreatePipelineLayout(device_.handle(), &layoutInfo, nullptr, &layout), "vkCreatePipelineLayout");
+  made->layout = {device_.handle(), layout, device_.vk().vkDestroyPipelineLayout};
+
+  const uint32_t maskedWord = masked ? VK_TRUE : VK_FALSE;
+  const VkSpecializationMapEntry entry{0, 0, sizeof maskedWord};
+  const VkSpecializationInfo specialization{1, &entry, sizeof maskedWord, &maskedWord};
+  RasterPipelineDesc desc;
+  desc.name = request.emit == SceneEmit::transparentList ? "scene.transparent_list" : "scene.opaque_radiance";
+  desc.vertex = scene_scene_vert;
+  desc.fragment = fragmentOf(request.emit);
+  desc.state = {.depthTest = true, .depthWrite = request.emit == SceneEmit::opaqueRadiance};
+  desc.specialization = &specialization;
+  desc.colorFormats = request.colorFormats;
+  desc.depthFormat = request.depthFormat;
+  desc.vertexBindings = {&kVertexBinding, 1};
+  desc.vertexAttributes = kAttributes;
+  made->pipeline = makeRasterPipeline(device_, backend_.pipelines().cache(), layout, desc);
+  pipelines_.push_back(std::move(made));
+  return *pipelines_.back();
+}
+
+void SceneRenderer::bindFrame(VkCommandBuffer commands, const SceneDrawRequest& request, VkPipelineLayout layout) {
+  const auto& vk = device_.vk();
+  const VkDeviceSize offset = 0;
+  const VkBuffer vertices = gpu_.vertices();
+  vk.vkCmdBindVertexBuffers(commands, 0, 1, &vertices, &offset);
+  vk.vkCmdBindIndexBuffer(commands, gpu_.indices(), 0, VK_INDEX_TYPE_UINT32);
+  const VkViewport viewport{0.0f, 0.0f, static_cast<float>(request.extent.width),
+                            static_cast<float>(request.extent.height), 0.0f, 1.0f};
+  const VkRect2D scissor{{0, 0}, request.extent};
+  vk.vkCmdSetViewport(commands, 0, 1, &viewport);
+  vk.vkCmdSetScissor(commands, 0, 1, &scissor);
+  vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 0, 1, &sceneSet_, 0, nullptr);
+  vk.vkCmdPushConstants(commands, layout, kAllShaderStages, 0, sizeof request.view, &request.view);
+}
+
+void SceneRenderer::draw(VkCommandBuffer commands, const SceneDrawRequest& request) {
+  const auto& vk = device_.vk();
+  const EmitPipeline* bound = nullptr;
+  uint32_t boundMaterial = kNoIndex;
+  VkDescriptorSet emitSet = VK_NULL_HANDLE;
+  for (uint32_t i = 0; i < gpu_.draws().size(); ++i) {
+    const auto& item = gpu_.draws()[i];
+    if (!isDrawnBy(request.emit, item.alphaMode) || item.indexCount == 0) continue;
+    const auto& pipeline = pipelineFor(request, item.alphaMode == AlphaMode::mask);
+    if (bound != &pipeline) {
+      if (bound == nullptr) bindFrame(commands, request, pipeline.layout.get());
+      vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.pipeline.get());
+      bound = &pipeline;
+    }
+    if (emitSet == VK_NULL_HANDLE && pipeline.emitSetLayout != VK_NULL_HANDLE) {
+      emitSet = backend_.transientSet(pipeline.emitSetLayout);
+      backend_.writeSet(emitSet, request.emitBindings);
+      vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.layout.get(), 2, 1, &emitSet, 0,
+                                 nullptr);
+    }
+    if (boundMaterial != item.material) {
+      const VkDescriptorSet set = gpu_.materialSet(item.material);
+      vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.layout.get(), 1, 1, &set, 0,
+                                 nullptr);
+      boundMaterial = item.material;
+    }
+    vk.vkCmdDrawIndexed(commands, item.indexCount, 1, item.firstIndex, item.vertexOffset, i);
+  }
+}
+
+}  // namespace engine

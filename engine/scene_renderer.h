@@ -1,0 +1,74 @@
+// Draws a scene in every way that techniques ask for (shaders/shared/emit.h), from any point of the lens.
+#pragma once
+
+#include <array>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/environment.h"
+#include "engine/graph_backend.h"
+#include "engine/memory.h"
+#include "engine/scene.h"
+#include "engine/scene_gpu.h"
+#include "shaders/shared/emit.h"
+#include "shaders/shared/scene.h"
+#include "shaders/shared/view.h"
+
+namespace engine {
+
+/// What of a view does not depend on the lens point.
+struct SceneViewpoint {
+  glm::dmat4 viewFromWorld{1.0};
+  double metersPerUnit = 1.0;              ///< View space is in metres.
+  bool lit = false;                        ///< Shaded, or the materials' own radiance.
+};
+
+struct SceneDrawRequest {
+  shared::SceneEmit emit = shared::SceneEmit::opaqueRadiance;
+  shared::ViewConstants view{};
+  VkExtent2D extent = {0, 0};  ///< px
+  std::span<const VkFormat> colorFormats;  ///< Of the rendering that is going on.
+  VkFormat depthFormat = VK_FORMAT_UNDEFINED;
+  std::span<const rendergraph::ResolvedBinding> emitBindings;  ///< Descriptor set 2.
+};
+
+/// The backend outlives it. Not thread-safe.
+class SceneRenderer {
+ public:
+  /// Uploads the scene (not needed afterwards). `environment` lights it when shading is lit.
+  SceneRenderer(GraphBackend& backend, const Scene& scene, const std::optional<Environment>& environment);
+  ~SceneRenderer();
+  SceneRenderer(const SceneRenderer&) = delete;
+  SceneRenderer& operator=(const SceneRenderer&) = delete;
+
+  /// Precondition: no submission that draws the scene is under way.
+  void setViewpoint(const SceneViewpoint& viewpoint);
+  bool hasTransparency() const { return gpu_.hasTransparency(); }
+
+  /// Records the draws. Precondition: rendering with the given formats has begun.
+  void draw(VkCommandBuffer commands, const SceneDrawRequest& request);
+
+ private:
+  struct EmitPipeline;
+  EmitPipeline& pipelineFor(const SceneDrawRequest& request, bool masked);
+  void makeSceneSet(const std::optional<Environment>& environment);
+  void bindFrame(VkCommandBuffer commands, const SceneDrawRequest& request, VkPipelineLayout layout);
+
+  GraphBackend& backend_;
+  const Device& device_;
+  SceneGpu gpu_;
+  std::vector<Light> lights_;
+  GpuBuffer drawConstants_, lightConstants_, sceneConstants_;  ///< Host-visible; written by setViewpoint().
+  GpuImage environmentImage_;
+  shared::SceneConstants constants_{};  ///< The environment's part is filled once.
+  Unique<VkDescriptorPool> pool_;
+  VkDescriptorSetLayout sceneSetLayout_ = VK_NULL_HANDLE;
+  VkDescriptorSet sceneSet_ = VK_NULL_HANDLE;
+  std::vector<std::unique_ptr<EmitPipeline>> pipelines_;
+};
+
+}  // namespace engine

@@ -1,0 +1,53 @@
+// Vulkan as the engine sees it: volk's function tables, one check for results, one owner for handles.
+#pragma once
+
+#include <volk.h>
+
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace engine {
+
+/// Throws engine::Error "what failed: VK_ERROR_…" unless the result is VK_SUCCESS.
+void check(VkResult result, std::string_view what);
+std::string_view nameOf(VkResult result);
+
+/// Throws engine::Error (kind failed) with a reason and a remedy.
+[[noreturn]] void throwDeviceError(std::string reason, std::string remedy);
+
+/// Owns one device object; moves, never copies. The device outlives it.
+template <class Object>
+class Unique {
+ public:
+  using Destroy = void(VKAPI_PTR*)(VkDevice, Object, const VkAllocationCallbacks*);
+
+  Unique() = default;
+  Unique(VkDevice device, Object object, Destroy destroy)
+      : device_(device), object_(object), destroy_(destroy) {}
+  ~Unique() { reset(); }
+  Unique(Unique&& other) noexcept
+      : device_(other.device_), object_(std::exchange(other.object_, VK_NULL_HANDLE)), destroy_(other.destroy_) {}
+  Unique& operator=(Unique&& other) noexcept {
+    if (this != &other) {
+      reset();
+      device_ = other.device_;
+      object_ = std::exchange(other.object_, VK_NULL_HANDLE);
+      destroy_ = other.destroy_;
+    }
+    return *this;
+  }
+
+  Object get() const { return object_; }
+  explicit operator bool() const { return object_ != VK_NULL_HANDLE; }
+  void reset() {
+    if (object_ != VK_NULL_HANDLE) destroy_(device_, std::exchange(object_, VK_NULL_HANDLE), nullptr);
+  }
+
+ private:
+  VkDevice device_ = VK_NULL_HANDLE;
+  Object object_ = VK_NULL_HANDLE;
+  Destroy destroy_ = nullptr;
+};
+
+}  // namespace engine

@@ -1,0 +1,37 @@
+// The Vulkan instance, and what the validation layers say.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/vulkan_api.h"
+
+namespace engine {
+
+/// Messages of the validation layers, warnings and errors, in the order in which they came.
+struct ValidationLog {
+  std::vector<std::string> messages;
+};
+
+class VulkanInstance {
+ public:
+  /// `validation`: core and synchronization validation, across submissions too. Throws engine::Error when there is no
+  /// Vulkan 1.3 loader, or no validation layer although one is asked for.
+  explicit VulkanInstance(bool validation);
+  ~VulkanInstance();
+  VulkanInstance(const VulkanInstance&) = delete;
+  VulkanInstance& operator=(const VulkanInstance&) = delete;
+
+  VkInstance handle() const { return instance_; }
+  bool validates() const { return messenger_ != VK_NULL_HANDLE; }
+  ValidationLog& log() { return log_; }
+
+ private:
+  void create(bool validation);
+
+  VkInstance instance_ = VK_NULL_HANDLE;
+  VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+  ValidationLog log_;
+};
+
+}  // namespace engine

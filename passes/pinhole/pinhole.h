@@ -1,0 +1,29 @@
+// The picture without a lens: everything in focus. One view through each pixel's centre, or the mean over the pixel's
+// square (a box filter of 1 px, by sub-pixel jitter).
+#pragma once
+
+#include <span>
+
+#include "passes/dof_io.h"
+#include "passes/lens_samples.h"
+#include "passes/parameters.h"
+#include "passes/registry.h"
+
+namespace passes::pinhole {
+
+struct Parameters {
+  int pixelSamples = 1;   ///< 1…4096 views; 1 looks through the pixel's centre only. Cost: one scene draw each.
+  int viewsPerFrame = 8;  ///< 1…64 views an execution of the graph.
+  LensPattern pattern = LensPattern::sobol;
+};
+
+std::span<const Field<Parameters>> fields();
+uint32_t frameCount(const Parameters& parameters, const DofInputs& inputs);
+
+/// Also gives the depth of the pixels' centres. Precondition: inputs.scene is set and outlives the recording.
+DofOutputs declare(rendergraph::Graph& graph, const DofInputs& inputs, const Parameters& parameters);
+
+/// The registry's entry.
+Technique technique();
+
+}  // namespace passes::pinhole

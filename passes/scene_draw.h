@@ -1,0 +1,42 @@
+// How a technique draws the host's scene without knowing it: a callback, and what the callback is told.
+//
+// The host's shaders meet the technique's through shaders/shared/emit.h: the vertex stage multiplies by
+// ViewConstants::clipFromView, the fragment stage does what SceneEmit says.
+#pragma once
+
+#include <vulkan/vulkan_core.h>
+
+#include <functional>
+#include <span>
+
+#include "rendergraph/pass.h"
+#include "rendergraph/program.h"
+#include "shaders/shared/emit.h"
+#include "shaders/shared/view.h"
+
+namespace passes {
+
+struct SceneDrawCall {
+  shared::SceneEmit emit = shared::SceneEmit::opaqueRadiance;
+  shared::ViewConstants view{};
+  VkExtent2D extent = {0, 0};  ///< Of viewport and scissor, px.
+  /// For emits with storage: the technique's resources, bindings 0, 1, … of descriptor set 2. Declared by the pass.
+  std::span<const rendergraph::Binding> emitBindings;
+};
+
+/// The host's scene, as far as techniques are concerned. Lives until the frame has been recorded.
+struct SceneDraw {
+  /// Records draws inside a raster pass (rendering has begun; viewport and scissor are the callback's to set).
+  /// Lengths in view space are metres.
+  std::function<void(rendergraph::PassContext&, const SceneDrawCall&)> record;
+  /// Whether anything is alpha-blended: techniques declare nothing for transparency without it.
+  bool hasTransparency = false;
+  /// Vergence range over all geometry inside the frustum and, where it can be seen, the background (0), 1/m.
+  float nearestVergence = 0.0f;
+  float farthestVergence = 0.0f;
+  /// Room for alpha-blended fragments, a mean over all pixels. Too little drops fragments and counts them in
+  /// FrameStatistics::transparentDropped; the host then renders again with more.
+  float transparentNodesPerPixel = 4.0f;
+};
+
+}  // namespace passes

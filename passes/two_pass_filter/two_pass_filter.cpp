@@ -1,0 +1,217 @@
+// Nodes of the two-pass filter (Zhou 2007). The formulas are in shaders/two_pass_filter/.
+#include "passes/two_pass_filter/two_pass_filter.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "rendergraph/error.h"
+#include "shaders/shared/statistics.h"
+#include "shaders/shared/two_pass_filter.h"
+#include "spirv/two_pass_filter/horizontal_comp.h"
+#include "spirv/two_pass_filter/prepare_comp.h"
+#include "spirv/two_pass_filter/reach_comp.h"
+#include "spirv/two_pass_filter/vertical_comp.h"
+
+namespace passes::two_pass_filter {
+namespace {
+
+using rendergraph::Binding;
+using rendergraph::Buffer;
+using rendergraph::ComputeProgram;
+using rendergraph::Graph;
+using rendergraph::Image;
+using rendergraph::Pass;
+using rendergraph::PassContext;
+using rendergraph::PassKind;
+using rendergraph::Usage;
+
+const ComputeProgram kPrepare{"two_pass_filter.prepare", two_pass_filter_prepare_comp};
+const ComputeProgram kReach{"two_pass_filter.reach", two_pass_filter_reach_comp};
+const ComputeProgram kVertical{"two_pass_filter.vertical", two_pass_filter_vertical_comp};
+const ComputeProgram kHorizontal{"two_pass_filter.horizontal", two_pass_filter_horizontal_comp};
+
+/// rgb and CoC of one pixel in one load. Half floats would be slower here and round the CoC to 1/1024 of itself.
+constexpr VkFormat kFilterFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
+
+/// What every node of one declaration needs.
+struct Frame {
+  VkExtent2D extent;
+  rendergraph::Groups tiles;
+  shared::TwoPassFilterConstants constants;
+
+  rendergraph::ImageDesc image() const {
+    return {.format = kFilterFormat, .width = extent.width, .height = extent.height};
+  }
+  VkDeviceSize tileBytes(VkDeviceSize bytesPerTile) const {
+    return VkDeviceSize{tiles.x} * tiles.y * bytesPerTile;
+  }
+};
+
+Frame frameOf(const DofInputs& inputs, const Parameters& parameters) {
+  Frame frame{.extent = inputs.extent,
+              .tiles = rendergraph::groupsFor(inputs.extent, shared::kTwoPassFilterTile),
+              .constants = {}};
+  auto& constants = frame.constants;
+  constants.lens = inputs.lens;
+  constants.maxRadius = std::min(parameters.maxRadius, inputs.lens.maxCocRadius);
+  constants.minRadius = parameters.minRadius;
+  constants.leakage = parameters.leakage;
+  constants.size = {static_cast<int32_t>(inputs.extent.width), static_cast<int32_t>(inputs.extent.height)};
+  constants.tiles = {static_cast<int32_t>(frame.tiles.x), static_cast<int32_t>(frame.tiles.y)};
+  return frame;
+}
+
+void requireSize(const Graph& graph, Image image, const char* name, VkExtent2D extent) {
+  const auto& desc = graph.desc(image);
+  if (desc.width == extent.width && desc.height == extent.height) return;
+  const auto text = [](uint32_t width, uint32_t height) {
+    return std::to_string(width) + "x" + std::to_string(height);
+  };
+  throw rendergraph::GraphError({{.misuse = rendergraph::Misuse::sizeMismatch,
+                                  .pass = kPrepare.name,
+                                  .resource = name,
+                                  .reason = "the image is " + text(desc.width, desc.height) +
+                                            " px, DofInputs::extent says " + text(extent.width, extent.height),
+                                  .remedy = "give colour and depth at full resolution",
+                                  .where = std::source_location::current()}});
+}
+
+Buffer declareStatistics(Graph& graph) {
+  Buffer statistics = graph.createBuffer("two_pass_filter.statistics", {.size = sizeof(shared::FrameStatistics)});
+  Pass pass = graph.addPass("two_pass_filter.clear_statistics", PassKind::transfer);
+  statistics = pass.write(statistics, Usage::transferDestination);
+  pass.record([statistics](PassContext& context) { context.fillBuffer(statistics, 0u); });
+  return statistics;
+}
+
+struct Prepared {
+  Image texels;
+  Buffer tileRadii;
+};
+
+Prepared declarePrepare(Graph& graph, const DofInputs& inputs, const Frame& frame, Buffer& statistics) {
+  Prepared out{graph.createImage("two_pass_filter.prepared", frame.image()),
+               graph.createBuffer("two_pass_filter.tile_radii", {.size = frame.tileBytes(sizeof(float))})};
+  // A view of a depth-stencil image that is sampled must name one aspect.
+  rendergraph::Subresources depthRange = rendergraph::mip(0);
+  depthRange.aspects = rendergraph::aspectsOf(graph.desc(inputs.depth).format) &
+                       (VK_IMAGE_ASPECT_COLOR_BIT | VK_IMAGE_ASPECT_DEPTH_BIT);
+  Pass pass = graph.addPass(kPrepare.name, PassKind::compute);
+  pass.sample(inputs.color, rendergraph::mip(0));
+  pass.sample(inputs.depth, depthRange);
+  out.texels = pass.write(out.texels, Usage::storage);
+  out.tileRadii = pass.write(out.tileRadii, Usage::storage);
+  statistics = pass.modify(statistics, Usage::storage);
+  pass.record([=, color = inputs.color, depth = inputs.depth](PassContext& context) {
+    const rendergraph::SamplerDesc nearest{.filter = VK_FILTER_NEAREST};
+    const std::array<Binding, 5> bindings = {
+        rendergraph::sampled(color, nearest, rendergraph::mip(0)), rendergraph::sampled(depth, nearest, depthRange),
+        rendergraph::storage(out.texels), rendergraph::storage(out.tileRadii), rendergraph::storage(statistics)};
+    context.dispatch({.program = kPrepare,
+                      .bindings = bindings,
+                      .pushConstants = rendergraph::bytesOf(frame.constants),
+                      .groups = frame.tiles});
+  });
+  return out;
+}
+
+Buffer declareReach(Graph& graph, const Frame& frame, Buffer tileRadii) {
+  Buffer tileTaps = graph.createBuffer("two_pass_filter.tile_taps", {.size = frame.tileBytes(sizeof(shared::uvec2))});
+  Pass pass = graph.addPass(kReach.name, PassKind::compute);
+  pass.read(tileRadii, Usage::storage);
+  tileTaps = pass.write(tileTaps, Usage::storage);
+  pass.record([=](PassContext& context) {
+    const std::array<Binding, 2> bindings = {rendergraph::storage(tileRadii), rendergraph::storage(tileTaps)};
+    context.dispatch({.program = kReach,
+                      .bindings = bindings,
+                      .pushConstants = rendergraph::bytesOf(frame.constants),
+                      .groups = rendergraph::groupsFor({frame.tiles.x, frame.tiles.y}, shared::kTwoPassFilterTile)});
+  });
+  return tileTaps;
+}
+
+/// One direction of the filter.
+Image declareFilter(Graph& graph, const Frame& frame, const ComputeProgram& program, Image source, Buffer tileTaps,
+                    const char* resultName) {
+  Image result = graph.createImage(resultName, frame.image());
+  Pass pass = graph.addPass(program.name, PassKind::compute);
+  pass.read(source, Usage::storage);
+  pass.read(tileTaps, Usage::storage);
+  result = pass.write(result, Usage::storage);
+  pass.record([=, &program](PassContext& context) {
+    const std::array<Binding, 3> bindings = {rendergraph::storage(source), rendergraph::storage(result),
+                                             rendergraph::storage(tileTaps)};
+    context.dispatch({.program = program,
+                      .bindings = bindings,
+                      .pushConstants = rendergraph::bytesOf(frame.constants),
+                      .groups = frame.tiles});
+  });
+  return result;
+}
+
+}  // namespace
+
+std::span<const Field<Parameters>> fields() {
+  static const std::array<Field<Parameters>, 3> all = {
+      number<&Parameters::maxRadius>(
+          "maxRadius", "px", 1.0, 1024.0,
+          "Blur radii are limited to it, and pixels that it limits are counted (clampedCoc). Costs nothing where blurs "
+          "are smaller; time grows with the radius that the picture has."),
+      number<&Parameters::minRadius>(
+          "minRadius", "px", 0.1, 2.0,
+          "Radius below which a blur no longer gets brighter. Smaller keeps what is in focus sharper against blur "
+          "that covers it; larger lets that blur show. No cost."),
+      number<&Parameters::leakage>(
+          "leakage", "1/px", 0.0, 16.0,
+          "How fast the background may spread over a pixel as that pixel's own blur radius grows: min(1, leakage * r). "
+          "0 stops all spreading behind the focal plane; large values let it onto edges near focus. No cost."),
+  };
+  return all;
+}
+
+std::vector<Problem> validate(const Parameters&, const DofInputs& inputs) {
+  std::vector<Problem> problems;
+  if (!inputs.color) problems.push_back({"", "the technique needs a colour image", "set DofInputs::color"});
+  if (!inputs.depth) problems.push_back({"", "the technique needs a depth image", "set DofInputs::depth"});
+  if (inputs.extent.width == 0 || inputs.extent.height == 0) {
+    problems.push_back({"", "the picture has no pixels", "set DofInputs::extent"});
+  }
+  return problems;
+}
+
+DofOutputs declare(Graph& graph, const DofInputs& inputs, const Parameters& parameters) {
+  DofOutputs outputs;
+  outputs.color = inputs.color;
+  if (inputs.lens.cocScale == 0.0f) return outputs;
+  requireSize(graph, inputs.color, "color", inputs.extent);
+  requireSize(graph, inputs.depth, "depth", inputs.extent);
+
+  const Frame frame = frameOf(inputs, parameters);
+  outputs.statistics = declareStatistics(graph);
+  const Prepared prepared = declarePrepare(graph, inputs, frame, outputs.statistics);
+  const Buffer tileTaps = declareReach(graph, frame, prepared.tileRadii);
+  const Image columns =
+      declareFilter(graph, frame, kVertical, prepared.texels, tileTaps, "two_pass_filter.columns");
+  outputs.color = declareFilter(graph, frame, kHorizontal, columns, tileTaps, "two_pass_filter.color");
+  return outputs;
+}
+
+Technique technique() {
+  return {.name = "two_pass_filter",
+          .title = "Two-pass filter",
+          .source = "Zhou, Chen, Pullen 2007, Accurate Depth of Field Simulation in Real Time",
+          .input = TechniqueInput::image,
+          .parameters = describe<Parameters>(fields()),
+          .validate =
+              [](const ParameterSet& set, const DofInputs& inputs) {
+                return validate(fromSet<Parameters>(set, fields()), inputs);
+              },
+          .declare =
+              [](Graph& graph, const DofInputs& inputs, const ParameterSet& set) {
+                return declare(graph, inputs, fromSet<Parameters>(set, fields()));
+              },
+          .frameCount = [](const ParameterSet&, const DofInputs&) -> uint32_t { return 1; }};
+}
+
+}  // namespace passes::two_pass_filter

@@ -1,0 +1,107 @@
+// Nodes: per view the scene and `accumulate`; at the end of the execution `resolve`.
+#include "passes/view_mean.h"
+
+#include <algorithm>
+#include <array>
+
+#include "passes/lens_view.h"
+#include "passes/scene_view.h"
+#include "shaders/shared/accumulation.h"
+#include "spirv/accumulation/accumulate_comp.h"
+#include "spirv/accumulation/resolve_comp.h"
+
+namespace passes {
+namespace {
+
+using rendergraph::Buffer;
+using rendergraph::Graph;
+using rendergraph::Image;
+using rendergraph::PassContext;
+using rendergraph::PassKind;
+using rendergraph::Usage;
+
+const rendergraph::ComputeProgram kAccumulate{"accumulation.accumulate", accumulation_accumulate_comp};
+const rendergraph::ComputeProgram kResolve{"accumulation.resolve", accumulation_resolve_comp};
+
+/// What persists across executions.
+struct Running {
+  Image mean, spread;
+};
+
+void declareAccumulate(Graph& graph, const DofInputs& inputs, const std::string& prefix, Image viewColor,
+                       const LensSample& sample, uint32_t viewIndex, Running& running, Buffer& statistics) {
+  auto pass = graph.addPass(prefix + ".accumulate", PassKind::compute);
+  pass.read(viewColor, Usage::storage);
+  running.mean = pass.modify(running.mean, Usage::storage);
+  running.spread = pass.modify(running.spread, Usage::storage);
+  statistics = pass.modify(statistics, Usage::storage);
+  const shared::AccumulatePush push{.aperture = inputs.aperture,
+                                    .lensSample = sample.v,
+                                    .weight = sample.weight,
+                                    .viewIndex = viewIndex,
+                                    .extent = {inputs.extent.width, inputs.extent.height}};
+  pass.record([viewColor, running, statistics, push, extent = inputs.extent](PassContext& context) {
+    const std::array bindings = {rendergraph::storage(viewColor), rendergraph::storage(running.mean),
+                                 rendergraph::storage(running.spread), rendergraph::storage(statistics)};
+    context.dispatch({.program = kAccumulate,
+                      .bindings = bindings,
+                      .pushConstants = rendergraph::bytesOf(push),
+                      .groups = rendergraph::groupsFor(extent, shared::kAccumulationTile)});
+  });
+}
+
+DofOutputs declareResolve(Graph& graph, const DofInputs& inputs, const std::string& prefix, const Running& running,
+                          uint32_t views) {
+  const auto [width, height] = inputs.extent;
+  DofOutputs out;
+  out.color = graph.createImage(prefix + ".color", {.format = kViewColorFormat, .width = width, .height = height});
+  out.standardError = graph.createImage(prefix + ".standard_error",
+                                        {.format = VK_FORMAT_R32_SFLOAT, .width = width, .height = height});
+  auto pass = graph.addPass(prefix + ".resolve", PassKind::compute);
+  pass.read(running.mean, Usage::storage);
+  pass.read(running.spread, Usage::storage);
+  out.color = pass.write(out.color, Usage::storage);
+  out.standardError = pass.write(out.standardError, Usage::storage);
+  const shared::ResolvePush push{.extent = {width, height}, .viewCount = views};
+  pass.record([running, color = out.color, error = out.standardError, push, extent = inputs.extent](
+                  PassContext& context) {
+    const std::array bindings = {rendergraph::storage(running.mean), rendergraph::storage(running.spread),
+                                 rendergraph::storage(color), rendergraph::storage(error)};
+    context.dispatch({.program = kResolve,
+                      .bindings = bindings,
+                      .pushConstants = rendergraph::bytesOf(push),
+                      .groups = rendergraph::groupsFor(extent, shared::kAccumulationTile)});
+  });
+  return out;
+}
+
+}  // namespace
+
+uint32_t frameCount(const ViewMean& mean) { return (mean.viewCount + mean.viewsPerFrame - 1) / mean.viewsPerFrame; }
+
+DofOutputs declareViewMean(Graph& graph, const DofInputs& inputs, const ViewMean& mean) {
+  const auto [width, height] = inputs.extent;
+  Running running;
+  running.mean = graph.persistentImage(mean.prefix + ".mean",
+                                       {.format = VK_FORMAT_R32G32B32A32_SFLOAT, .width = width, .height = height});
+  running.spread = graph.persistentImage(mean.prefix + ".spread",
+                                         {.format = VK_FORMAT_R32_SFLOAT, .width = width, .height = height});
+  Buffer statistics = declareStatistics(graph, mean.prefix);
+
+  const uint64_t first = uint64_t{inputs.frame} * mean.viewsPerFrame;
+  const uint64_t last = std::min<uint64_t>(first + mean.viewsPerFrame, mean.viewCount);
+  for (uint64_t view = first; view < last; ++view) {
+    // Numbered within the execution, so that every execution has the same structure.
+    const std::string name = mean.prefix + ".view" + std::to_string(view - first);
+    const LensSample sample = mean.sample(static_cast<uint32_t>(view));
+    const auto drawn =
+        declareSceneView(graph, inputs, name, viewFromLens(inputs, sample.v, sample.pixelOffset), statistics);
+    statistics = drawn.statistics;
+    declareAccumulate(graph, inputs, name, drawn.color, sample, static_cast<uint32_t>(view), running, statistics);
+  }
+  auto out = declareResolve(graph, inputs, mean.prefix, running, static_cast<uint32_t>(std::max(last, uint64_t{1})));
+  out.statistics = statistics;
+  return out;
+}
+
+}  // namespace passes

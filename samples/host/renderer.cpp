@@ -1,0 +1,327 @@
+// The frame loop: inputs of a shot, the technique's nodes, execution, read-back.
+#include "samples/host/renderer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <numbers>
+
+#include "engine/camera.h"
+#include "engine/commands.h"
+#include "engine/device.h"
+#include "engine/error.h"
+#include "engine/graph_backend.h"
+#include "engine/image_io.h"
+#include "engine/scene_gltf.h"
+#include "engine/scene_renderer.h"
+#include "engine/visible_range.h"
+#include "passes/pinhole/pinhole.h"
+#include "samples/host/shot_scene.h"
+
+namespace host {
+namespace {
+
+using passes::DofInputs;
+using passes::DofOutputs;
+using rendergraph::Buffer;
+using rendergraph::Graph;
+using rendergraph::Image;
+using rendergraph::MemoryKind;
+using rendergraph::PassContext;
+using rendergraph::PassKind;
+using rendergraph::Usage;
+
+constexpr float kNothingHit = 1e10f;  // m; the depth of the background in pictures
+
+constexpr rendergraph::AccessState kHostRead{VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT,
+                                             VK_IMAGE_LAYOUT_UNDEFINED};
+
+[[noreturn]] void throwProblem(const passes::Problem& problem, std::string_view technique) {
+  throw engine::Error(engine::ErrorParts{.file = {},
+                                         .field = std::string(technique) + "." + problem.parameter,
+                                         .reason = problem.reason,
+                                         .remedy = problem.remedy});
+}
+
+const passes::Technique& techniqueOf(const RenderOptions& options) {
+  const auto* technique = passes::findTechnique(options.technique);
+  if (technique == nullptr) {
+    const std::string near(passes::nearestTechniqueName(options.technique));
+    throw engine::Error(engine::ErrorParts{.file = {},
+                                           .field = "technique",
+                                           .reason = "unknown technique '" + options.technique + "'",
+                                           .remedy = near.empty() ? "see 'lensgraph techniques'" : "did you mean '" + near + "'?"});
+  }
+  const auto problems = passes::check(options.parameters, technique->parameters);
+  if (!problems.empty()) throwProblem(problems.front(), technique->name);
+  return *technique;
+}
+
+/// Adds a copy of an image into a host-readable buffer and exports that.
+Buffer readBack(Graph& graph, Image image, const char* name) {
+  const auto& desc = graph.desc(image);
+  const VkDeviceSize size = VkDeviceSize{desc.width} * desc.height * rendergraph::texelSize(desc.format);
+  Buffer buffer = graph.createBuffer(name, {.size = size, .memory = MemoryKind::readback});
+  auto pass = graph.addPass(std::string(name) + ".copy", PassKind::transfer);
+  pass.read(image, Usage::transferSource);
+  buffer = pass.write(buffer, Usage::transferDestination);
+  pass.record([image, buffer](PassContext& context) { context.copyImageToBuffer(image, buffer); });
+  graph.exportBuffer(buffer, kHostRead);
+  return buffer;
+}
+
+Buffer readBack(Graph& graph, Buffer from, const char* name) {
+  const VkDeviceSize size = graph.desc(from).size;
+  Buffer buffer = graph.createBuffer(name, {.size = size, .memory = MemoryKind::readback});
+  auto pass = graph.addPass(std::string(name) + ".copy", PassKind::transfer);
+  pass.read(from, Usage::transferSource);
+  buffer = pass.write(buffer, Usage::transferDestination);
+  pass.record([from, buffer, size](PassContext& context) { context.copyBuffer(from, buffer, size); });
+  graph.exportBuffer(buffer, kHostRead);
+  return buffer;
+}
+
+engine::FloatImage imageFrom(std::span<const std::byte> bytes, VkExtent2D extent, uint32_t channels) {
+  engine::FloatImage image(extent.width, extent.height, channels);
+  std::memcpy(image.samples.data(), bytes.data(), image.samples.size() * sizeof(float));
+  return image;
+}
+
+double rootMeanSquare(std::span<const std::byte> bytes) {
+  const std::size_t count = bytes.size() / sizeof(float);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    float value = 0.0f;
+    std::memcpy(&value, bytes.data() + i * sizeof value, sizeof value);
+    sum += static_cast<double>(value) * static_cast<double>(value);
+  }
+  return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(count, 1)));
+}
+
+/// What of a frame comes back to the host; default-made handles are not asked for.
+struct ReadBacks {
+  Buffer color, depth, standardError, statistics;
+};
+
+void add(shared::FrameStatistics& total, const shared::FrameStatistics& frame) {
+  total.replacedTexels += frame.replacedTexels;
+  total.clampedCoc = std::max(total.clampedCoc, frame.clampedCoc);
+  total.transparentNodes = std::max(total.transparentNodes, frame.transparentNodes);
+  total.transparentDropped = std::max(total.transparentDropped, frame.transparentDropped);
+}
+
+/// Vergence of a depth picture's sample; what is not a positive depth is infinitely far.
+float vergenceOf(float depth) { return depth > 0.0f && depth < kNothingHit ? 1.0f / depth : 0.0f; }
+
+}  // namespace
+
+struct Renderer::State {
+  explicit State(engine::Device& usedDevice) : device(usedDevice), backend(usedDevice), executor(backend) {}
+
+  /// Declares one frame; returns the technique's outputs.
+  using DeclareFrame = std::function<DofOutputs(Graph&, uint32_t frame)>;
+
+  DofInputs sceneInputs(const Shot& shot);
+  Rendering run(const passes::Technique& technique, const DofInputs& inputs, const RenderOptions& options,
+                const DeclareFrame& declareFrame);
+  ReadBacks declareReadBacks(Graph& graph, const DofOutputs& out, bool isLast, bool wantDepth);
+  DofOutputs declareTechnique(Graph& graph, DofInputs inputs, const passes::Technique& technique,
+                              const RenderOptions& options);
+
+  engine::Device& device;
+  engine::GraphBackend backend;
+  rendergraph::Executor executor;
+  std::optional<engine::Scene> scene;
+  std::unique_ptr<engine::SceneRenderer> renderer;
+  passes::SceneDraw sceneDraw;
+};
+
+Renderer::Renderer(engine::Device& device, const Shot& shot, std::vector<std::string>& warnings)
+    : state_(std::make_unique<State>(device)) {
+  state_->scene = loadShotScene(shot, warnings);
+  std::optional<engine::Environment> environment;
+  if (shot.environment) environment = engine::prepareEnvironment(engine::readImage(*shot.environment));
+  state_->renderer = std::make_unique<engine::SceneRenderer>(state_->backend, *state_->scene, environment);
+}
+
+Renderer::Renderer(engine::Device& device) : state_(std::make_unique<State>(device)) {}
+Renderer::~Renderer() = default;
+
+DofInputs Renderer::State::sceneInputs(const Shot& shot) {
+  if (!renderer) throw engine::Error("this renderer was made without a scene");
+  const engine::Camera camera = shotCamera(shot, *scene);
+  const auto width = static_cast<uint32_t>(shot.width), height = static_cast<uint32_t>(shot.height);
+  DofInputs inputs;
+  inputs.extent = {width, height};
+  inputs.lens = engine::lensConstants(shot.lens, camera.fovy, shot.height, camera.nearPlane);
+  inputs.aperture = engine::apertureShape(shot.lens);
+  inputs.projection.pixelsPerTangent =
+      static_cast<float>(engine::pixelsPerTangent(shot.lens, camera.fovy, shot.height));
+  inputs.projection.nearPlane = static_cast<float>(camera.nearPlane);
+  inputs.background = shot.background;
+
+  renderer->setViewpoint({.viewFromWorld = camera.viewFromWorld,
+                          .metersPerUnit = shot.lens.metersPerUnit,
+                          .lit = shot.shading == Shading::lit});
+  const auto range = engine::visibleRange(*scene, camera, width, height, 0.0, shot.lens.metersPerUnit);
+  sceneDraw.nearestVergence = range.isEmpty ? 0.0f : static_cast<float>(1.0 / range.nearestDepth);
+  sceneDraw.farthestVergence = 0.0f;  // The background may always show.
+  sceneDraw.hasTransparency = renderer->hasTransparency();
+  sceneDraw.record = [this](PassContext& context, const passes::SceneDrawCall& call) {
+    std::vector<rendergraph::ResolvedBinding> bindings;
+    for (const auto& binding : call.emitBindings) {
+      const bool isImage = static_cast<bool>(binding.image);
+      bindings.push_back({.kind = binding.kind,
+                          .view = isImage ? context.view(binding.image, binding.range, binding.viewType) : VK_NULL_HANDLE,
+                          .layout = VK_IMAGE_LAYOUT_GENERAL,
+                          .sampler = binding.sampler,
+                          .buffer = isImage ? VK_NULL_HANDLE : context.buffer(binding.buffer)});
+    }
+    renderer->draw(context.commandBuffer(), {.emit = call.emit,
+                                             .view = call.view,
+                                             .extent = call.extent,
+                                             .colorFormats = context.colorFormats(),
+                                             .depthFormat = context.depthFormat(),
+                                             .emitBindings = bindings});
+  };
+  inputs.scene = &sceneDraw;
+  return inputs;
+}
+
+DofOutputs Renderer::State::declareTechnique(Graph& graph, DofInputs inputs, const passes::Technique& technique,
+                                             const RenderOptions& options) {
+  // Without a scene (apply) the pictures are already in the inputs.
+  DofOutputs view;
+  const bool isImage = technique.input == passes::TechniqueInput::image;
+  if (inputs.scene != nullptr && (isImage || options.wantDepth) && technique.name != "pinhole") {
+    DofInputs sharp = inputs;
+    sharp.frame = 0;
+    view = passes::pinhole::declare(graph, sharp, {});
+    inputs.color = view.color;
+    inputs.depth = view.depth;
+  }
+  const auto problems = technique.validate(options.parameters, inputs);
+  if (!problems.empty()) throwProblem(problems.front(), technique.name);
+  DofOutputs out = technique.declare(graph, inputs, options.parameters);
+  if (!out.depth) out.depth = view.depth;
+  if (!out.statistics) out.statistics = view.statistics;
+  return out;
+}
+
+ReadBacks Renderer::State::declareReadBacks(Graph& graph, const DofOutputs& out, bool isLast, bool wantDepth) {
+  ReadBacks back;
+  if (out.statistics) back.statistics = readBack(graph, out.statistics, "statistics");
+  if (!isLast) return back;
+  back.color = readBack(graph, out.color, "color");
+  if (wantDepth && out.depth) back.depth = readBack(graph, out.depth, "depth");
+  if (out.standardError) back.standardError = readBack(graph, out.standardError, "standard_error");
+  return back;
+}
+
+Rendering Renderer::State::run(const passes::Technique& technique, const DofInputs& inputs,
+                               const RenderOptions& options, const DeclareFrame& declareFrame) {
+  Rendering rendering;
+  const uint32_t frames = technique.frameCount(options.parameters, inputs);
+  Graph graph;
+  for (uint32_t frame = 0; frame < frames; ++frame) {
+    graph.reset();
+    const bool isLast = frame + 1 == frames;
+    const auto back = declareReadBacks(graph, declareFrame(graph, frame), isLast, options.wantDepth);
+    executor.execute(graph, options.execute);
+    rendering.gpuMs += std::max(executor.capture().frameGpuMs, 0.0);
+    rendering.wallMs += executor.capture().frameWallMs;
+    if (back.statistics) {
+      shared::FrameStatistics statistics;
+      std::memcpy(&statistics, executor.mapped(back.statistics).data(), sizeof statistics);
+      add(rendering.statistics, statistics);
+      if (statistics.transparentDropped > 0) return rendering;  // The caller makes room and starts again.
+    }
+    if (options.progress) options.progress(frame + 1, frames);
+    if (!isLast) continue;
+    rendering.color = imageFrom(executor.mapped(back.color), inputs.extent, 4);
+    if (back.depth) {
+      rendering.depth = imageFrom(executor.mapped(back.depth), inputs.extent, 1);
+      for (float& z : rendering.depth.samples) z = z > 0.0f ? inputs.projection.nearPlane / z : kNothingHit;
+    }
+    if (back.standardError) rendering.estimatedError = rootMeanSquare(executor.mapped(back.standardError));
+  }
+  rendering.capture = executor.capture();
+  return rendering;
+}
+
+Rendering Renderer::render(const Shot& shot, const RenderOptions& options) {
+  const auto& technique = techniqueOf(options);
+  const DofInputs inputs = state_->sceneInputs(shot);
+  const double pixels = static_cast<double>(inputs.extent.width) * inputs.extent.height;
+  for (;;) {
+    auto rendering = state_->run(technique, inputs, options, [&](Graph& graph, uint32_t frame) {
+      DofInputs now = inputs;
+      now.frame = frame;
+      return state_->declareTechnique(graph, now, technique, options);
+    });
+    if (rendering.statistics.transparentDropped == 0) return rendering;
+    // A quarter more than was needed, so that neighbouring views fit too.
+    state_->sceneDraw.transparentNodesPerPixel =
+        static_cast<float>(1.25 * rendering.statistics.transparentNodes / pixels);
+  }
+}
+
+void Renderer::declare(Graph& graph, const Shot& shot, const RenderOptions& options) {
+  const auto& technique = techniqueOf(options);
+  const auto out = state_->declareTechnique(graph, state_->sceneInputs(shot), technique, options);
+  graph.exportImage(out.color, {VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
+                                VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
+}
+
+rendergraph::Plan Renderer::compile(const Graph& graph, const rendergraph::CompileOptions& options) {
+  return rendergraph::compile(graph.declaration(), options, state_->backend);
+}
+
+Rendering Renderer::apply(const engine::FloatImage& color, const engine::FloatImage& depth, double fovyDeg,
+                          const engine::Lens& lens, const RenderOptions& options) {
+  const auto& technique = techniqueOf(options);
+  if (technique.input != passes::TechniqueInput::image) {
+    throw engine::Error("technique '" + options.technique + "' draws a scene; apply works on pictures");
+  }
+  const auto upload = [&](VkFormat format, const engine::FloatImage& picture, const char* name) {
+    auto image = engine::makeImage(state_->device, {.format = format, .width = color.width, .height = color.height},
+                                   VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
+                                       VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                                   name);
+    engine::upload(state_->device, image, std::as_bytes(std::span(picture.samples)));
+    return image;
+  };
+  engine::FloatImage vergence = depth;
+  for (float& sample : vergence.samples) sample = vergenceOf(sample);
+  const auto colorImage = upload(VK_FORMAT_R32G32B32A32_SFLOAT, withOpaqueAlpha(color), "color");
+  const auto depthImage = upload(VK_FORMAT_R32_SFLOAT, vergence, "vergence");
+
+  DofInputs inputs;
+  inputs.extent = {color.width, color.height};
+  const double fovy = fovyDeg * std::numbers::pi / 180.0;
+  inputs.lens = engine::lensConstants(lens, fovy, static_cast<int>(color.height), 1.0);
+  inputs.lens.vergenceScale = 1.0f;
+  inputs.lens.vergenceOffset = 0.0f;
+  inputs.aperture = engine::apertureShape(lens);
+  inputs.projection.pixelsPerTangent =
+      static_cast<float>(engine::pixelsPerTangent(lens, fovy, static_cast<int>(color.height)));
+  const auto import = [](Graph& graph, const engine::GpuImage& image, const char* name) {
+    constexpr rendergraph::AccessState kRest{VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_SHADER_READ_BIT,
+                                             VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+    return graph.importImage(name, image.desc,
+                             {.image = image.image.get(),
+                              .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
+                                       VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                              .before = kRest,
+                              .after = kRest});
+  };
+  return state_->run(technique, inputs, options, [&](Graph& graph, uint32_t) {
+    DofInputs now = inputs;
+    now.color = import(graph, colorImage, "color");
+    now.depth = import(graph, depthImage, "vergence");
+    return state_->declareTechnique(graph, now, technique, options);
+  });
+}
+
+}  // namespace host

@@ -1,0 +1,71 @@
+// Renders shots: joins engine (device, scene) and passes (techniques) through the render graph.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "engine/image.h"
+#include "passes/registry.h"
+#include "rendergraph/capture.h"
+#include "rendergraph/executor.h"
+#include "samples/host/shot.h"
+#include "shaders/shared/statistics.h"
+
+namespace engine {
+class Device;
+struct Scene;
+}
+
+namespace host {
+
+struct Rendering {
+  engine::FloatImage color;  ///< Linear RGBA.
+  engine::FloatImage depth;  ///< View depth in metres, one channel, 1e10 where nothing is hit; empty for apply.
+  shared::FrameStatistics statistics{};
+  rendergraph::Capture capture;  ///< Of the last execution.
+  double gpuMs = 0.0;            ///< Device time of all executions.
+  double wallMs = 0.0;           ///< Host time of all executions, after warm-up of pipelines.
+  double estimatedError = -1.0;  ///< RMS standard error of a progressive technique; negative when it has none.
+};
+
+/// Done executions and their number; called between executions.
+using Progress = std::function<void(uint32_t done, uint32_t total)>;
+
+struct RenderOptions {
+  std::string technique;
+  passes::ParameterSet parameters;
+  rendergraph::ExecuteOptions execute;
+  bool wantDepth = false;
+  Progress progress;
+};
+
+/// One scene on one device; keeps its GPU copy, pipelines and plans between renders. The device outlives it.
+class Renderer {
+ public:
+  /// Loads the shot's scene. Throws engine::Error. Warnings of the loader go to `warnings`.
+  Renderer(engine::Device& device, const Shot& shot, std::vector<std::string>& warnings);
+  /// A renderer for images only (apply()).
+  explicit Renderer(engine::Device& device);
+  ~Renderer();
+
+  /// The shot may differ from the constructor's in all but its scene. Throws engine::Error (bad parameters name the
+  /// parameter and the nearest known one) and rendergraph::GraphError.
+  Rendering render(const Shot& shot, const RenderOptions& options);
+
+  /// A technique of TechniqueInput::image on pictures: color RGB(A) linear, depth one channel of view depth in
+  /// metres, same size.
+  Rendering apply(const engine::FloatImage& color, const engine::FloatImage& depth, double fovyDeg,
+                  const engine::Lens& lens, const RenderOptions& options);
+
+  /// The graph that render() would execute (first frame), compiled for this device; for dumps.
+  void declare(rendergraph::Graph& graph, const Shot& shot, const RenderOptions& options);
+  rendergraph::Plan compile(const rendergraph::Graph& graph, const rendergraph::CompileOptions& options);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace host

@@ -1,0 +1,54 @@
+// A shot file: scene, camera, lens, resolution, technique. Parsed, checked, and free of JSON.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/lens.h"
+#include "passes/parameters.h"
+
+namespace host {
+
+/// px. The device's own limit is checked when it renders.
+inline constexpr int kMaxResolution = 16384;
+
+struct ScenePart {
+  std::filesystem::path path;  ///< Absolute, or relative to the working directory: resolved by the parser.
+  glm::dvec3 translation{0.0};
+  glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
+  glm::dvec3 scale{1.0};
+};
+
+struct ShotCamera {
+  glm::dvec3 position{0.0};
+  glm::dvec3 target{0.0, 0.0, -1.0};
+  glm::dvec3 up{0.0, 1.0, 0.0};
+  double fovyDeg = 40.0;             ///< 0 < fovy < 180.
+  double nearPlane = 0.01;           ///< m, > 0.
+  std::optional<std::string> gltfCamera;  ///< Replaces position, target, up and fovy.
+};
+
+enum class Shading { unlit, lit };
+
+struct Shot {
+  std::string name;
+  std::vector<ScenePart> scene;
+  ShotCamera camera;
+  engine::Lens lens;
+  int width = 640, height = 360;     ///< px, 1…kMaxResolution.
+  std::array<float, 3> background = {0.0f, 0.0f, 0.0f};  ///< Linear radiance.
+  std::optional<std::filesystem::path> environment;
+  Shading shading = Shading::unlit;
+  std::string technique = "accumulation";
+  passes::ParameterSet parameters;
+};
+
+/// Reads and checks a shot file. Throws engine::Error with file, field (or line and column), reason, remedy.
+Shot readShot(const std::filesystem::path& file);
+
+}  // namespace host

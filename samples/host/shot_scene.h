@@ -1,0 +1,23 @@
+// The engine's side of a shot: its scene, its camera, its pictures.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/camera.h"
+#include "engine/image.h"
+#include "engine/scene.h"
+#include "samples/host/shot.h"
+
+namespace host {
+
+/// Loads every part of the shot into one scene. Throws engine::Error; the loader's warnings are appended.
+engine::Scene loadShotScene(const Shot& shot, std::vector<std::string>& warnings);
+
+/// The shot's own camera, or the one it names in the scene. Near plane in metres. Throws engine::Error.
+engine::Camera shotCamera(const Shot& shot, const engine::Scene& scene);
+
+/// RGBA of a picture of one, three or four channels; alpha 1 where there is none.
+engine::FloatImage withOpaqueAlpha(const engine::FloatImage& picture);
+
+}  // namespace host

@@ -1,0 +1,103 @@
+// lensgraph apply: a technique on a picture and its depth, wherever they come from.
+#include <nlohmann/json.hpp>
+
+#include "engine/error.h"
+#include "engine/image_io.h"
+#include "samples/lensgraph/capture_file.h"
+#include "samples/lensgraph/commands.h"
+#include "samples/lensgraph/output.h"
+#include "samples/lensgraph/progress.h"
+#include "samples/lensgraph/session.h"
+
+namespace cli {
+namespace {
+
+[[noreturn]] void failUsage(const std::string& field, const std::string& reason, const std::string& remedy) {
+  throw engine::Error({.file = "command line", .field = field, .reason = reason, .remedy = remedy});
+}
+
+/// The option that sets a member of engine::Lens.
+std::string optionOf(const std::string& lensField) {
+  if (lensField == "focalLengthMm") return "--focal-length-mm";
+  if (lensField == "fStop") return "--fstop";
+  if (lensField == "focusDistance") return "--focus";
+  return lensField;
+}
+
+engine::Lens lensOf(const ApplyArguments& arguments) {
+  engine::Lens lens;
+  lens.focusDistance = arguments.focusDistance;
+  if (arguments.apertureRadius) {
+    lens.apertureRadius = *arguments.apertureRadius;
+    if (!(lens.apertureRadius >= 0.0 && lens.apertureRadius <= std::numeric_limits<float>::max())) {
+      failUsage("--aperture-radius", "must be 0 or more metres", "0 turns depth of field off");
+    }
+  } else if (arguments.focalLengthMm && arguments.fStop) {
+    lens.focalLengthMm = *arguments.focalLengthMm;
+    lens.fStop = *arguments.fStop;
+  } else {
+    failUsage("apply", "no aperture given", "give --aperture-radius, or --focal-length-mm and --fstop");
+  }
+  const auto problems = engine::validate(lens);
+  if (!problems.empty()) {
+    failUsage(optionOf(problems.front().field), problems.front().reason, problems.front().remedy);
+  }
+  return lens;
+}
+
+void checkTechnique(const host::TechniqueChoice& choice) {
+  if (host::requireTechnique(choice.name, "command line", "--technique").input == passes::TechniqueInput::image) return;
+  std::string usable;
+  for (const auto& technique : passes::techniques()) {
+    if (technique.input != passes::TechniqueInput::image) continue;
+    usable += (usable.empty() ? "" : ", ") + std::string(technique.name);
+  }
+  failUsage("--technique", choice.name + " draws the scene and cannot work on a picture", "those that can: " + usable);
+}
+
+}  // namespace
+
+int runApply(const ApplyArguments& arguments, const GlobalArguments& global) {
+  const auto choice = chooseTechnique({arguments.technique.technique, {}}, arguments.technique);
+  checkTechnique(choice);
+  if (!(arguments.fovyDeg > 0.0 && arguments.fovyDeg < 180.0)) {
+    failUsage("--fovy", "must be above 0 and below 180 degrees", "");
+  }
+  const engine::Lens lens = lensOf(arguments);
+  checkOutput(arguments.output, "--output", kPictureExtensions);
+  if (arguments.capture) checkOutput(*arguments.capture, "--capture");
+  if (arguments.exposureEv) warnUnusedExposure(arguments.output);
+  const auto color = engine::readImage(arguments.color);
+  const auto depth = engine::readDepth(arguments.depth);
+  if (color.width != depth.width || color.height != depth.height) {
+    const auto size = [](const auto& image) { return std::to_string(image.width) + "x" + std::to_string(image.height); };
+    throw engine::Error({.file = arguments.depth.string(),
+                         .field = "--depth",
+                         .reason = "is " + size(depth) + " px, the colour picture is " + size(color) + " px",
+                         .remedy = "give a depth picture of the same size"});
+  }
+
+  Session session(global);
+  host::Renderer renderer(session.device());
+  ProgressBar bar("filtering");
+  host::RenderOptions options{.technique = choice.name,
+                              .parameters = choice.parameters,
+                              .execute = {},
+                              .wantDepth = false,
+                              .progress = [&](uint32_t done, uint32_t total) { bar.update(done, total); }};
+  options.execute.timing =
+      arguments.capture ? rendergraph::Timing::isolated : rendergraph::Timing::inlineTimestamps;
+  const auto rendering = renderer.apply(color, depth, arguments.fovyDeg, lens, options);
+  bar.wipe();
+
+  engine::writeImage(arguments.output, rendering.color, {.exposureEv = arguments.exposureEv.value_or(0.0)});
+  if (arguments.capture) {
+    const CaptureInput input{arguments.color.string(), {arguments.color, arguments.depth}, &lens};
+    writeTextFile(*arguments.capture,
+                  captureJson(session.device().description(), input, choice, rendering).dump(2) + "\n");
+  }
+  printSummary(session.device().description(), choice, rendering);
+  return session.finish();
+}
+
+}  // namespace cli

@@ -1,0 +1,241 @@
+// The command line's words. The only user of CLI11: each function below describes one subcommand and binds it to its
+// function in commands.h.
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include <spdlog/spdlog.h>
+
+#include "engine/error.h"
+#include "generated/version.h"
+#include "passes/parameters.h"
+#include "samples/host/shot.h"
+#include "samples/lensgraph/commands.h"
+
+namespace cli {
+namespace {
+
+[[noreturn]] void failUsage(const std::string& field, const std::string& reason, const std::string& remedy) {
+  throw engine::Error({.file = "command line", .field = field, .reason = reason, .remedy = remedy});
+}
+
+PictureSize parseSize(const std::string& text) {
+  const char* end = text.data() + text.size();
+  PictureSize size;
+  const auto width = std::from_chars(text.data(), end, size.width);
+  const bool hasX = width.ec == std::errc{} && width.ptr != end && (*width.ptr == 'x' || *width.ptr == 'X');
+  const auto height = hasX ? std::from_chars(width.ptr + 1, end, size.height) : width;
+  if (!hasX || height.ec != std::errc{} || height.ptr != end) {
+    failUsage("--size", "\"" + text + "\" is no size", "write WIDTHxHEIGHT, such as 640x360");
+  }
+  const auto fits = [](int pixels) { return pixels >= 1 && pixels <= host::kMaxResolution; };
+  if (!fits(size.width) || !fits(size.height)) {
+    failUsage("--size", "is " + text + ", each side must be from 1 to " + std::to_string(host::kMaxResolution) + " px",
+              "");
+  }
+  return size;
+}
+
+void requireFinite(const std::string& field, double value) {
+  if (!std::isfinite(value)) failUsage(field, "is not a finite number", "");
+}
+
+CLI::Option* addSize(CLI::App& app, std::optional<PictureSize>& size) {
+  return app
+      .add_option_function<std::string>(
+          "--size", [&size](const std::string& text) { size = parseSize(text); },
+          "Picture size in pixels instead of the shot's")
+      ->type_name("WxH");
+}
+
+void addExposure(CLI::App& app, std::optional<double>& exposure) {
+  app.add_option_function<double>(
+         "--exposure",
+         [&exposure](double value) {
+           requireFinite("--exposure", value);
+           exposure = value;
+         },
+         "Brighten PNG output by this many stops before it is clamped and sRGB-encoded")
+      ->type_name("EV");
+}
+
+void addTechnique(CLI::App& app, TechniqueArguments& technique, bool required) {
+  app.add_option("--technique", technique.technique, "Technique to use (see lensgraph techniques)")
+      ->type_name("NAME")
+      ->required(required);
+  app.add_option("--set", technique.settings, "Set one parameter of the technique; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  app.add_option("--config", technique.config, "File {\"technique\": {\"name\": …, parameters…}}")
+      ->type_name("FILE.json");
+}
+
+using Action = std::function<int(const GlobalArguments&)>;
+
+Action addRender(CLI::App& app) {
+  auto* sub = app.add_subcommand("render", "Render a shot file into a picture");
+  auto a = std::make_shared<RenderArguments>();
+  sub->add_option("shot", a->shot, "Shot file")->type_name("SHOT.json")->required();
+  addTechnique(*sub, a->technique, false);
+  addSize(*sub, a->size);
+  addExposure(*sub, a->exposureEv);
+  sub->add_option("--capture", a->capture, "Write times, memory, device, parameters")->type_name("FILE.json");
+  sub->add_option("--depth-out", a->depthOut, "Write view depth in metres")->type_name("FILE.exr");
+  sub->add_option("-o,--output", a->output, "Picture to write: .exr, .png or .hdr")->type_name("OUT")->required();
+  return [a](const GlobalArguments& global) { return runRender(*a, global); };
+}
+
+Action addApply(CLI::App& app) {
+  auto* sub = app.add_subcommand("apply", "Blur a picture by its depth with a technique that works on images");
+  auto a = std::make_shared<ApplyArguments>();
+  sub->add_option("--color", a->color, "Linear colour")->type_name("C.exr")->required();
+  sub->add_option("--depth", a->depth, "Linear view depth in metres")->type_name("Z.exr")->required();
+  sub->add_option("--fovy", a->fovyDeg, "Vertical field of view")->type_name("DEG")->required();
+  auto* radius = sub->add_option("--aperture-radius", a->apertureRadius, "Lens radius in metres")->type_name("M");
+  auto* focal = sub->add_option("--focal-length-mm", a->focalLengthMm, "Focal length")->type_name("F");
+  auto* fStop = sub->add_option("--fstop", a->fStop, "f-number; 0 turns depth of field off")->type_name("N");
+  radius->excludes(focal)->excludes(fStop);
+  focal->needs(fStop);
+  fStop->needs(focal);
+  sub->add_option("--focus", a->focusDistance, "Focus distance in metres, or infinity")->type_name("D")->required();
+  addTechnique(*sub, a->technique, true);
+  addExposure(*sub, a->exposureEv);
+  sub->add_option("--capture", a->capture, "Write times, memory, device, parameters")->type_name("FILE.json");
+  sub->add_option("-o,--output", a->output, "Picture to write: .exr, .png or .hdr")->type_name("OUT")->required();
+  return [a](const GlobalArguments& global) { return runApply(*a, global); };
+}
+
+Action addTechniques(CLI::App& app) {
+  auto* sub = app.add_subcommand("techniques", "List techniques and their parameters");
+  auto json = std::make_shared<bool>(false);
+  sub->add_flag("--json", *json, "As JSON");
+  return [json](const GlobalArguments&) { return runTechniques(*json); };
+}
+
+Action addCompare(CLI::App& app) {
+  auto* sub = app.add_subcommand("compare", "Measure how far a picture is from its reference");
+  auto a = std::make_shared<CompareArguments>();
+  sub->add_option("picture", a->picture, "Picture")->type_name("A")->required();
+  sub->add_option("reference", a->reference, "Reference")->type_name("REFERENCE")->required();
+  sub->add_option("--exposure", a->exposureEv, "Stops by which both are brightened before they are compared")
+      ->type_name("EV");
+  sub->add_flag("--json", a->json, "As JSON");
+  return [a](const GlobalArguments&) {
+    requireFinite("--exposure", a->exposureEv);
+    return runCompare(*a);
+  };
+}
+
+Action addGraph(CLI::App& app) {
+  auto* sub = app.add_subcommand("graph", "Write the render graph of a shot and a technique, compiled");
+  auto a = std::make_shared<GraphArguments>();
+  sub->add_option("shot", a->shot, "Shot file")->type_name("SHOT.json")->required();
+  addTechnique(*sub, a->technique, false);
+  addSize(*sub, a->size);
+  sub->add_option("--dot", a->dot, "Write it for Graphviz; - is standard output")->type_name("FILE");
+  sub->add_option("--json", a->json, "Write it as JSON; - is standard output")->type_name("FILE");
+  return [a](const GlobalArguments& global) {
+    if (!a->dot && !a->json) failUsage("graph", "nothing to write", "give --dot FILE or --json FILE");
+    return runGraph(*a, global);
+  };
+}
+
+Action addDemo(CLI::App& app) {
+  auto* sub = app.add_subcommand("demo", "Render the sample scenes with every technique and write a page of them");
+  auto a = std::make_shared<DemoArguments>();
+  sub->add_option("-o,--output", a->output, "Folder to write")->type_name("DIR")->capture_default_str();
+  sub->add_option("--scenes", a->scenes, "Folder of shot files instead of the project's own")->type_name("DIR");
+  sub->add_option("--width", a->width, "Picture width in pixels")
+      ->type_name("PX")
+      ->check(CLI::Range(16, 4096))
+      ->capture_default_str();
+  sub->add_option("--reference-samples", a->referenceSamples, "Lens samples of the reference")
+      ->type_name("N")
+      ->check(CLI::Range(1, 65536))
+      ->capture_default_str();
+  return [a](const GlobalArguments& global) { return runDemo(*a, global); };
+}
+
+Action addDevices(CLI::App& app) {
+  auto* sub = app.add_subcommand("devices", "List the Vulkan devices of this machine");
+  auto json = std::make_shared<bool>(false);
+  sub->add_flag("--json", *json, "As JSON");
+  return [json](const GlobalArguments&) { return runDevices(*json); };
+}
+
+/// The subcommand on the command line; null when there is none.
+const CLI::App* chosenSubcommand(const CLI::App& app) {
+  const auto chosen = app.get_subcommands();
+  return chosen.empty() ? nullptr : chosen.front();
+}
+
+/// What a user may have meant by a word that is no subcommand, or no option of the chosen one.
+std::string suggestion(const CLI::App& app, const std::string& word) {
+  const auto* sub = chosenSubcommand(app);
+  std::vector<std::string> names;
+  if (word.starts_with("-")) {
+    for (const auto* level : {&app, sub}) {
+      if (level == nullptr) continue;
+      for (const auto* option : level->get_options()) {
+        for (const auto& name : option->get_lnames()) names.push_back("--" + name);
+      }
+    }
+  } else if (sub == nullptr) {
+    for (const auto* each : app.get_subcommands([](const CLI::App*) { return true; })) names.push_back(each->get_name());
+  }
+  const std::vector<std::string_view> views(names.begin(), names.end());
+  const auto nearest = passes::nearestName(word, views);
+  if (!nearest.empty()) return "did you mean " + std::string(nearest) + "?";
+  return "see lensgraph " + (sub == nullptr ? "" : sub->get_name() + " ") + "--help";
+}
+
+[[noreturn]] void failParse(const CLI::App& app, const CLI::ParseError& error) {
+  const auto* sub = chosenSubcommand(app);
+  const auto unknown = app.remaining(true);
+  if (!unknown.empty() && dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
+    const bool option = unknown.front().starts_with("-");
+    const std::string kind = option ? "is no option" : sub == nullptr ? "is no subcommand" : "was not expected";
+    failUsage(unknown.front(), kind, suggestion(app, unknown.front()));
+  }
+  failUsage(sub == nullptr ? "" : sub->get_name(), error.what(), suggestion(app, ""));
+}
+
+}  // namespace
+
+int run(int argc, char** argv) {
+  CLI::App app("Depth of field through a Vulkan render graph.", "lensgraph");
+  app.set_version_flag("--version", [] {
+    const std::string commit = kCommit;
+    return std::string("lensgraph ") + kVersion + (commit.empty() ? "" : " (" + commit + ")");
+  });
+  app.footer("Exit codes: 0 done, 1 failed at run time, 2 bad input or usage.");
+  app.fallthrough();  // global options may stand after the subcommand
+  GlobalArguments global;
+  app.add_option("--device", global.device, "Vulkan device: index or part of its name (see lensgraph devices)")
+      ->type_name("INDEX|NAME");
+  app.add_flag("--validate", global.validation, "Turn on validation and synchronization validation");
+  app.add_flag("-v,--verbose", global.verbose, "Say more on stderr");
+
+  std::vector<std::pair<std::string, Action>> actions = {
+      {"render", addRender(app)},   {"apply", addApply(app)}, {"techniques", addTechniques(app)},
+      {"compare", addCompare(app)}, {"graph", addGraph(app)}, {"demo", addDemo(app)},
+      {"devices", addDevices(app)}};
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    failParse(app, error);
+  }
+  const auto* sub = chosenSubcommand(app);
+  if (sub == nullptr) failUsage("", "no subcommand given", "see lensgraph --help");
+  if (global.verbose) spdlog::set_level(spdlog::level::debug);
+  for (const auto& [name, action] : actions) {
+    if (sub->get_name() == name) return action(global);
+  }
+  return 1;  // unreachable: every subcommand stands in the list
+}
+
+}  // namespace cli

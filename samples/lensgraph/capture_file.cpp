@@ -1,0 +1,77 @@
+// Captures as JSON: see capture_file.h.
+#include "samples/lensgraph/capture_file.h"
+
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "engine/lens.h"
+#include "generated/version.h"
+
+namespace cli {
+
+using nlohmann::json;
+
+json toJson(const passes::ParameterValue& value) {
+  return std::visit([](const auto& held) { return json(held); }, value);
+}
+
+json toJson(double value) {
+  if (std::isfinite(value)) return value;
+  return std::isnan(value) ? "nan" : value > 0.0 ? "infinity" : "-infinity";
+}
+
+json toJson(const engine::DeviceDescription& device) {
+  return {{"name", device.name}, {"type", device.type}, {"driver", device.driver}};
+}
+
+std::string hashOfFiles(const std::vector<std::filesystem::path>& files) {
+  uint64_t hash = 0xcbf29ce484222325u;
+  for (const auto& file : files) {
+    std::ifstream stream(file, std::ios::binary);
+    for (auto byte = std::istreambuf_iterator<char>(stream); byte != std::istreambuf_iterator<char>{}; ++byte) {
+      hash = (hash ^ static_cast<unsigned char>(*byte)) * 0x100000001b3u;
+    }
+  }
+  char digits[17];
+  std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash));
+  return digits;
+}
+
+json captureJson(const engine::DeviceDescription& device, const CaptureInput& input,
+                 const host::TechniqueChoice& choice, const host::Rendering& rendering) {
+  json parameters = json::object();
+  for (const auto& info : host::requireTechnique(choice.name, "", "").parameters) {
+    const auto given = choice.parameters.find(info.name);
+    parameters[std::string(info.name)] =
+        toJson(given == choice.parameters.end() ? info.defaultValue : given->second);
+  }
+  std::stringstream graph;
+  rendergraph::writeJson(graph, rendering.capture);
+  const auto& statistics = rendering.statistics;
+  return {
+      {"program", {{"name", "lensgraph"}, {"version", kVersion}, {"commit", kCommit}}},
+      {"device", toJson(device)},
+      {"shot", input.source},
+      {"inputHash", hashOfFiles(input.files)},
+      {"resolution", {rendering.color.width, rendering.color.height}},
+      {"lens",
+       {{"apertureRadius", engine::apertureRadius(*input.lens)},
+        {"focusDistance", toJson(input.lens->focusDistance)}}},
+      {"technique", {{"name", choice.name}, {"parameters", std::move(parameters)}}},
+      {"gpuMs", rendering.gpuMs},
+      {"wallMs", rendering.wallMs},
+      {"estimatedError", rendering.estimatedError < 0.0 ? json() : toJson(rendering.estimatedError)},
+      {"statistics",
+       {{"replacedTexels", statistics.replacedTexels},
+        {"transparentNodes", statistics.transparentNodes},
+        {"transparentDropped", statistics.transparentDropped},
+        {"clampedCoc", statistics.clampedCoc}}},
+      {"graph", json::parse(graph)},
+  };
+}
+
+}  // namespace cli

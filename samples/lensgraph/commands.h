@@ -1,0 +1,85 @@
+// The subcommands: what each is given, and the function that carries it out. Free of the argument parser.
+//
+// Each function returns the exit code (0, or 1 when validation layers complained) and throws engine::Error or
+// rendergraph::GraphError otherwise. Results go to stdout, everything else to stderr.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace cli {
+
+struct GlobalArguments {
+  std::string device;       ///< Index or part of the name; empty: the most capable one.
+  bool validation = false;  ///< Validation and synchronization validation; a message makes the exit code 1.
+  bool verbose = false;
+};
+
+struct PictureSize {
+  int width = 0, height = 0;  ///< px
+};
+
+/// How the technique is chosen: shot file, then configuration file, then technique and settings.
+struct TechniqueArguments {
+  std::string technique;                       ///< Empty: as the files say.
+  std::vector<std::string> settings;           ///< "key=value"
+  std::optional<std::filesystem::path> config;
+};
+
+struct RenderArguments {
+  std::filesystem::path shot;
+  TechniqueArguments technique;
+  std::optional<PictureSize> size;
+  std::optional<double> exposureEv;  ///< PNG only.
+  std::optional<std::filesystem::path> capture;
+  std::optional<std::filesystem::path> depthOut;
+  std::filesystem::path output;
+};
+int runRender(const RenderArguments& arguments, const GlobalArguments& global);
+
+struct ApplyArguments {
+  std::filesystem::path color, depth;
+  double fovyDeg = 0.0;
+  std::optional<double> apertureRadius;  ///< m
+  std::optional<double> focalLengthMm, fStop;
+  double focusDistance = 0.0;  ///< m; infinity is legal.
+  TechniqueArguments technique;
+  std::optional<double> exposureEv;
+  std::optional<std::filesystem::path> capture;
+  std::filesystem::path output;
+};
+int runApply(const ApplyArguments& arguments, const GlobalArguments& global);
+
+struct CompareArguments {
+  std::filesystem::path picture, reference;
+  double exposureEv = 0.0;
+  bool json = false;
+};
+int runCompare(const CompareArguments& arguments);
+
+struct GraphArguments {
+  std::filesystem::path shot;
+  TechniqueArguments technique;
+  std::optional<PictureSize> size;
+  std::optional<std::filesystem::path> dot, json;  ///< At least one; "-" is stdout.
+};
+int runGraph(const GraphArguments& arguments, const GlobalArguments& global);
+
+struct DemoArguments {
+  std::filesystem::path output = "out/demo";
+  std::optional<std::filesystem::path> scenes;  ///< None: the project's own.
+  int width = 480;                              ///< px; the height follows each shot.
+  int referenceSamples = 512;                   ///< Lens samples of the reference.
+};
+int runDemo(const DemoArguments& arguments, const GlobalArguments& global);
+
+int runTechniques(bool json);
+int runDevices(bool json);
+
+/// Parses the command line and runs what it asks for. Throws what the subcommands throw, and engine::Error (with
+/// file "command line") for wrong usage.
+int run(int argc, char** argv);
+
+}  // namespace cli

@@ -1,0 +1,20 @@
+// Where a picture differs from its reference, as colours.
+#pragma once
+
+#include <array>
+
+#include "engine/image.h"
+
+namespace cli {
+
+/// Largest difference of a channel of the displayed pictures that the map still tells apart; above it stays the last
+/// colour. A quarter of full scale: most of what depth of field gets wrong lies below.
+inline constexpr float kErrorMapEnd = 0.25f;
+
+/// sRGB-encoded colour of an error from 0 (black) over purple and orange to kErrorMapEnd and above (pale yellow).
+std::array<float, 3> errorColor(float error);
+
+/// A linear picture to be written as PNG. Precondition: both have the same size and at least three channels.
+engine::FloatImage errorMap(const engine::FloatImage& picture, const engine::FloatImage& reference);
+
+}  // namespace cli

@@ -1,0 +1,66 @@
+// lensgraph: entry, logging, and how errors become one line and an exit code.
+//
+// Exit codes: 0 done, 1 failed at run time, 2 bad input or usage.
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <cstdio>
+#include <exception>
+#include <iostream>
+#include <new>
+#include <string>
+
+#include "engine/error.h"
+#include "rendergraph/error.h"
+#include "samples/lensgraph/commands.h"
+
+namespace {
+
+constexpr int kFailed = 1;
+constexpr int kBadInput = 2;
+
+void setUpLogging() {
+  auto logger = spdlog::stderr_color_mt("lensgraph");
+  logger->set_pattern("lensgraph: %^%l%$: %v");
+  logger->set_level(spdlog::level::warn);
+  spdlog::set_default_logger(std::move(logger));
+}
+
+/// FILE: FIELD: reason (remedy). Line breaks and other control characters become spaces: an error is one line.
+std::string lineOf(const engine::ErrorParts& parts) {
+  std::string line;
+  if (!parts.file.empty()) line += parts.file + ": ";
+  if (!parts.field.empty()) line += parts.field + ": ";
+  line += parts.reason;
+  if (!parts.remedy.empty()) line += " (" + parts.remedy + ")";
+  for (char& c : line) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  }
+  return line;
+}
+
+int guardedRun(int argc, char** argv) {
+  try {
+    const int code = cli::run(argc, argv);
+    std::cout.flush();  // into stdout's buffer, which printf shares
+    if (!std::cout || std::fflush(stdout) != 0) throw engine::Error("standard output cannot be written", engine::ErrorKind::failed);
+    return code;
+  } catch (const engine::Error& error) {
+    spdlog::error("{}", lineOf(error.parts()));
+    return error.kind() == engine::ErrorKind::badInput ? kBadInput : kFailed;
+  } catch (const rendergraph::GraphError& error) {
+    spdlog::error("{}", lineOf({.file = "render graph", .field = {}, .reason = error.what(), .remedy = {}}));
+  } catch (const std::bad_alloc&) {
+    spdlog::error("out of memory (try a smaller --size)");
+  } catch (const std::exception& error) {
+    spdlog::error("{}", lineOf({.file = {}, .field = {}, .reason = error.what(), .remedy = {}}));
+  }
+  return kFailed;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  setUpLogging();
+  return guardedRun(argc, argv);
+}

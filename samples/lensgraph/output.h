@@ -1,0 +1,26 @@
+// Files that the program writes: checked before the work so that none is lost, and there whole or not at all.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace cli {
+
+/// Throws engine::Error (bad input) unless the file could be written: its folder is there and takes files, and the path
+/// is no folder. `extensions`: those allowed, lower case with the dot; empty allows any. Leaves nothing behind.
+void checkOutput(const std::filesystem::path& file, std::string_view option,
+                 std::span<const std::string_view> extensions = {});
+
+/// Extensions of pictures and of depth, as engine/image_io writes them.
+inline constexpr std::string_view kPictureExtensions[] = {".exr", ".png", ".hdr"};
+inline constexpr std::string_view kDepthExtensions[] = {".exr"};
+
+/// Warns when an exposure is asked for although the format keeps scene light.
+void warnUnusedExposure(const std::filesystem::path& output);
+
+/// Writes beside the place and renames. "-" is stdout. Throws engine::Error (failed).
+void writeTextFile(const std::filesystem::path& file, std::string_view text);
+
+}  // namespace cli

@@ -1,0 +1,49 @@
+// The radiance and alpha of a fragment: inputs of every emit's fragment shader, textures, and surface().
+// Unlit mode is exactly: radiance = COLOR_0 × base colour × texture + emissive (dropped for unlit materials),
+// alpha = COLOR_0.a × factor × texture; bilinear at level 0, because the area is integrated by pixel samples.
+#include "shaders/shared/scene.h"
+#include "shaders/shared/view.h"
+
+layout(push_constant) uniform Push { ViewConstants view; };
+layout(std430, set = 0, binding = 1) readonly buffer Materials { MaterialConstants materials[]; };
+layout(std430, set = 0, binding = 2) readonly buffer Lights { LightConstants lights[]; };
+layout(std140, set = 0, binding = 3) uniform SceneBlock { SceneConstants scene; };
+layout(set = 0, binding = 4) uniform sampler2D environmentMap;
+
+layout(set = 1, binding = 0) uniform sampler2D baseColorMap;
+layout(set = 1, binding = 1) uniform sampler2D emissiveMap;
+layout(set = 1, binding = 2) uniform sampler2D metallicRoughnessMap;
+layout(set = 1, binding = 3) uniform sampler2D normalMap;
+layout(set = 1, binding = 4) uniform sampler2D occlusionMap;
+
+layout(location = 0) in vec3 viewPosition;
+layout(location = 1) in vec3 viewNormal;
+layout(location = 2) in vec4 texCoords;
+layout(location = 3) in vec4 vertexColor;
+layout(location = 4) flat in uint materialIndex;
+
+vec2 transformedUv(UvTransform transform) {
+  const vec3 uv = vec3(transform.row0.w < 0.5 ? texCoords.xy : texCoords.zw, 1.0);
+  return vec2(dot(transform.row0.xyz, uv), dot(transform.row1.xyz, uv));
+}
+
+#include "lighting.glsl"
+
+// Alpha after the material's mode: 1, 0 or 1, or the blend factor.
+float surfaceAlpha(MaterialConstants material, float alpha) {
+  if (material.alphaMode == kAlphaOpaque) return 1.0;
+  if (material.alphaMode == kAlphaMask) return alpha > material.emissive.w ? 1.0 : 0.0;
+  return alpha;
+}
+
+// Linear radiance (not premultiplied) and alpha towards the view's lens point.
+vec4 surface() {
+  const MaterialConstants material = materials[materialIndex];
+  const vec4 base = vertexColor * material.baseColor *
+                    textureLod(baseColorMap, transformedUv(material.baseColorUv), 0.0);
+  const float alpha = surfaceAlpha(material, base.a);
+  if (material.unlit != 0u) return vec4(base.rgb, alpha);
+  const vec3 emissive = material.emissive.rgb * textureLod(emissiveMap, transformedUv(material.emissiveUv), 0.0).rgb;
+  if (scene.lit == 0u) return vec4(base.rgb + emissive, alpha);
+  return vec4(shade(material, base.rgb) + emissive, alpha);
+}

@@ -1,0 +1,35 @@
+// What the fragments of a scene draw do with themselves: the contract between a host's materials and the techniques.
+// A host engine with shaders of its own implements these emits; ours are in shaders/scene.
+#ifndef LENSGRAPH_SHARED_EMIT_H
+#define LENSGRAPH_SHARED_EMIT_H
+
+#include "shaders/shared/interop.h"
+
+SHARED_NAMESPACE_BEGIN
+
+#ifdef __cplusplus
+/// Which surfaces a draw covers and what their fragments do.
+enum class SceneEmit : uint32_t {
+  /// Opaque and alpha-masked surfaces. Colour attachment 0: linear radiance, alpha 1. Depth attachment: tested
+  /// (greater) and written.
+  opaqueRadiance = 0,
+  /// Alpha-blended surfaces only. No colour attachment; depth attachment tested, not written. Each fragment with
+  /// alpha above 0 appends a TransparentNode to the list of its pixel. Bindings of descriptor set 2:
+  ///   0  r32ui storage image, full resolution: index of the list's first node + 1; 0 is an empty list
+  ///   1  storage buffer of TransparentNode
+  ///   2  storage buffer of one uint, the allocator: nodes asked for so far. Nodes beyond the pool are dropped
+  transparentList = 1,
+};
+#endif
+
+// A fragment of an alpha-blended surface. 24 bytes, scalars only, so that GLSL and C++ agree on the layout.
+struct TransparentNode {
+  float red, green, blue;  // linear radiance, not premultiplied
+  float alpha;             // (0, 1]
+  float vergence;          // 1/viewDepth times the near plane: the depth buffer's value
+  uint next;               // index + 1 of the next node of this pixel; 0 ends the list
+};
+
+SHARED_NAMESPACE_END
+
+#endif  // LENSGRAPH_SHARED_EMIT_H

@@ -1,0 +1,18 @@
+// Counters that a technique's shaders raise with atomics and the host reads after the frame.
+#ifndef LENSGRAPH_SHARED_STATISTICS_H
+#define LENSGRAPH_SHARED_STATISTICS_H
+
+#include "shaders/shared/interop.h"
+
+SHARED_NAMESPACE_BEGIN
+
+struct FrameStatistics {
+  uint replacedTexels;        // NaN or Inf texels of the input that were replaced by 0
+  uint transparentNodes;      // most alpha-blended fragments that the lists of one view were asked to hold
+  uint transparentDropped;    // most that found no room in one view (the picture is then incomplete)
+  uint clampedCoc;            // pixels whose blur radius was limited by maxCocRadius
+};
+
+SHARED_NAMESPACE_END
+
+#endif  // LENSGRAPH_SHARED_STATISTICS_H
