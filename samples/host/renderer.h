@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "engine/environment.h"
 #include "engine/image.h"
 #include "passes/registry.h"
 #include "rendergraph/capture.h"
@@ -16,7 +17,6 @@
 
 namespace engine {
 class Device;
-struct Environment;
 struct Scene;
 }  // namespace engine
 
