@@ -71,7 +71,7 @@ struct DemoArguments {
   std::filesystem::path output = "out/demo";
   std::optional<std::filesystem::path> scenes;  ///< None: the project's own.
   int width = 480;                              ///< px; the height follows each shot.
-  int referenceSamples = 512;                   ///< Lens samples of the reference.
+  int referenceSamples = 256;                   ///< Lens samples of the reference.
 };
 int runDemo(const DemoArguments& arguments, const GlobalArguments& global);
 
