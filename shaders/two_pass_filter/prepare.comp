@@ -36,8 +36,9 @@ float filteredCoc(float vergence) {
 
 vec4 preparedTexel(ivec2 pixel) {
   vec3 rgb = texelFetch(color, pixel, 0).rgb;
-  float vergence = vergenceFromDepthBuffer(constants.lens, texelFetch(depth, pixel, 0).r);
-  bvec4 good = bvec4(isFinite(rgb.r), isFinite(rgb.g), isFinite(rgb.b), isFinite(vergence));
+  float z = texelFetch(depth, pixel, 0).r;
+  bvec4 good = bvec4(isFinite(rgb.r), isFinite(rgb.g), isFinite(rgb.b), isFinite(z));
+  float vergence = vergenceFromDepthBuffer(constants.lens, z);  // May overflow to +Inf: the nearest there is.
   if (!all(good)) {
     // The whole colour goes: the other channels of a broken texel mean nothing. Unknown depth is the sky's.
     if (!all(good.xyz)) rgb = vec3(0.0);
