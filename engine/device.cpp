@@ -188,9 +188,6 @@ void Device::createDevice() {
   vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
 }
 
-const std::vector<std::string>& Device::validationMessages() const { return instance_.log().messages; }
-void Device::clearValidationMessages() { instance_.log().messages.clear(); }
-
 void Device::setName(VkObjectType type, uint64_t object, const std::string& name) const {
   // Names cost the driver memory and are read only under validation and debuggers, which load the same extension.
   if (vkSetDebugUtilsObjectNameEXT == nullptr || object == 0) return;

@@ -44,8 +44,22 @@ struct AccessRules {
 /// `shaderStages`: stages that touch the resource for shader usages; ignored for fixed-function usages.
 AccessRules rulesOf(Usage usage, AccessMode mode, VkPipelineStageFlags2 shaderStages);
 
+/// Whether the usage happens in shaders, so that the caller names the stages.
+bool usesShaderStages(Usage usage);
+/// Whether the usage can read (read) or write (write, modify) at all.
+bool allows(Usage usage, AccessMode mode);
+
+/// Every access bit that writes memory; the others read.
+inline constexpr VkAccessFlags2 kWriteAccess =
+    VK_ACCESS_2_SHADER_WRITE_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT |
+    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_HOST_WRITE_BIT |
+    VK_ACCESS_2_MEMORY_WRITE_BIT;
 /// Whether any bit of `access` writes memory.
 bool writesMemory(VkAccessFlags2 access);
+
+/// The layout in which one pass can use the same subresource in both ways; UNDEFINED when there is none (an
+/// attachment cannot be written and read otherwise in one pass).
+VkImageLayout combinedLayout(VkImageLayout a, VkImageLayout b);
 
 std::string_view nameOf(Usage usage);
 std::string_view nameOf(AccessMode mode);

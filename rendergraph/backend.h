@@ -77,7 +77,8 @@ class Backend : public DeviceFacts {
   virtual void destroyView(VkImageView view) = 0;
 
   // Commands. One command buffer is open at a time in this version.
-  /// Begins a command buffer; transient objects (descriptor sets) of the submission before are recycled.
+  /// Begins a command buffer; transient objects (descriptor sets) of the submission before are recycled. When the
+  /// command buffer begun before was never submitted (a recording threw), it is abandoned and its content dropped.
   virtual VkCommandBuffer beginCommands() = 0;
   /// Ends, submits and waits until the device is done.
   virtual void submitAndWait(VkCommandBuffer commands) = 0;
@@ -93,7 +94,7 @@ class Backend : public DeviceFacts {
                                  const VkBufferImageCopy& region) = 0;
   virtual void copyBuffer(VkCommandBuffer commands, VkBuffer from, VkBuffer to, VkDeviceSize bytes) = 0;
   virtual void fillBuffer(VkCommandBuffer commands, VkBuffer to, uint32_t word) = 0;
-  /// Whole image in layout TRANSFER_DST_OPTIMAL.
+  /// The range is in layout TRANSFER_DST_OPTIMAL, as is the destination of copies; their source in TRANSFER_SRC_OPTIMAL.
   virtual void clearImage(VkCommandBuffer commands, VkImage image, const VkClearColorValue& value,
                           const VkImageSubresourceRange& range) = 0;
   virtual void clearDepthImage(VkCommandBuffer commands, VkImage image, float depth,

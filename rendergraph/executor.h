@@ -19,7 +19,8 @@ namespace rendergraph {
 enum class Timing : uint8_t {
   none,
   inlineTimestamps,  ///< Two timestamps a pass in the one submission. Cheap; wrong on lavapipe once raster is involved.
-  isolated,          ///< Each pass in its own submission with a wait, timed by the device in that submission.
+  isolated,          ///< Each pass in its own submission with a wait, timed by the host around both. Right on every
+                     ///< device, including the cost of one submission (some 10 µs).
 };
 
 struct ExecuteOptions {
@@ -36,13 +37,16 @@ class Executor {
   Executor(const Executor&) = delete;
   Executor& operator=(const Executor&) = delete;
 
-  /// Records and submits the graph and waits until the device has finished it. Throws GraphError; nothing is
-  /// submitted when the declaration or a recording is at fault.
+  /// Records and submits the graph and waits until the device has finished it. Throws GraphError, and whatever a
+  /// recording throws; the executor stays usable. Nothing is submitted when the declaration or a recording is at
+  /// fault, except that host passes and isolated timing have had what lies before them submitted; then persistent
+  /// content that the graph uses is zeroed again.
   void execute(const Graph& graph, const ExecuteOptions& options = {});
 
   /// Records the graph into the host's command buffer, which is in the recording state on a queue of the backend's
   /// device; the host submits it. Everything it uses stays alive until the next call or the executor's end, so the
-  /// host waits for its submission first.
+  /// host waits for its submission first. Takes no times; a graph with host passes is refused
+  /// (undeclaredAccess), since the host's submission cannot be interrupted.
   void record(const Graph& graph, VkCommandBuffer commands, const ExecuteOptions& options = {});
 
   /// Of the latest execute() or record(). Valid until the next one.
@@ -63,6 +67,7 @@ class Executor {
 
  private:
   friend class PassContext;
+  friend class Frame;
   struct State;
   std::unique_ptr<State> state_;
 };

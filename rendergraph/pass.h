@@ -3,6 +3,7 @@
 
 #include <vulkan/vulkan_core.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <source_location>
 #include <span>
@@ -59,6 +60,8 @@ class PassContext {
   VkImageView view(Image image, Subresources range = {},
                    VkImageViewType type = VK_IMAGE_VIEW_TYPE_2D) const;
   VkBuffer buffer(Buffer buffer) const;
+  /// Host pass: content of an upload or readback buffer that the pass declared with Usage::host.
+  std::span<std::byte> mapped(Buffer buffer) const;
   /// Size of the image at a mip.
   VkExtent2D extent(Image image, uint32_t mipLevel = 0) const;
   /// Formats of this raster pass's attachments, to make pipelines for it.
@@ -67,15 +70,18 @@ class PassContext {
 
   void dispatch(const Dispatch& dispatch);
   void draw(const Draw& draw);
-  /// Same extent and texel size; whole subresource `mip`, `layer` of each.
+  /// Copies the range that the pass declared as transferSource to the one declared as transferDestination. Both have
+  /// the same extents, number of mips and layers, and texel size.
   void copyImage(Image from, Image to);
-  /// Tightly packed rows of mip 0, layer 0.
+  /// First mip and layer of the range declared as transferSource, in tightly packed rows.
   void copyImageToBuffer(Image from, Buffer to);
   void copyBuffer(Buffer from, Buffer to, VkDeviceSize bytes);
   void fillBuffer(Buffer to, uint32_t word);
+  /// Clears the range declared as transferDestination; a depth image to the value's first component.
   void clearImage(Image to, const VkClearColorValue& value);
 
  private:
+  struct Inside;
   Executor& executor_;
   uint32_t pass_;
   VkCommandBuffer commands_;

@@ -26,10 +26,11 @@ struct AccessPoint {
 /// Why a barrier is there.
 enum class BarrierReason : uint8_t { readAfterWrite, writeAfterRead, writeAfterWrite, layout, alias };
 
+/// `to` covers every use that the barrier serves: a run of reads by several passes waits once, before the first.
 struct ImageBarrier {
   uint32_t resource = 0;
-  Subresources range;  ///< Resolved: counts are numbers, aspects are set.
-  AccessPoint from, to;
+  Subresources range = {};  ///< Resolved: counts are numbers, aspects are set.
+  AccessPoint from = {}, to = {};
   VkImageLayout oldLayout = VK_IMAGE_LAYOUT_UNDEFINED;
   VkImageLayout newLayout = VK_IMAGE_LAYOUT_UNDEFINED;
   BarrierReason reason = BarrierReason::layout;
@@ -38,7 +39,7 @@ struct ImageBarrier {
 
 struct BufferBarrier {
   uint32_t resource = 0;
-  AccessPoint from, to;
+  AccessPoint from = {}, to = {};
   BarrierReason reason = BarrierReason::readAfterWrite;
   bool operator==(const BufferBarrier&) const = default;
 };
@@ -89,10 +90,19 @@ struct Placement {
   uint32_t resource = 0;
   uint32_t heap = 0;
   VkDeviceSize offset = 0, size = 0;       ///< Bytes.
-  uint32_t firstStep = 0, lastStep = 0;    ///< Positions in Plan::passes, inclusive.
+  uint32_t firstStep = 0, lastStep = 0;    ///< Positions in Plan::passes, inclusive; passes.size(): exported.
   VkImageUsageFlags imageUsage = 0;
   VkBufferUsageFlags bufferUsage = 0;
   bool operator==(const Placement&) const = default;
+};
+
+/// A resource that the executor keeps across frames, and what this plan does with it.
+struct RetainedResource {
+  uint32_t resource = 0;
+  VkImageUsageFlags imageUsage = 0;
+  VkBufferUsageFlags bufferUsage = 0;
+  VkImageLayout restLayout = VK_IMAGE_LAYOUT_GENERAL;  ///< Between frames; the plan starts and ends with it.
+  bool operator==(const RetainedResource&) const = default;
 };
 
 struct CulledPass {
@@ -114,6 +124,7 @@ struct Plan {
   BarrierBatch after;               ///< To the states that exports and imports ask for.
   std::vector<PlannedHeap> heaps;
   std::vector<Placement> placements;
+  std::vector<RetainedResource> retained;
   std::vector<CulledPass> culled;
   MemoryReport memory;
   uint32_t barrierBatches = 0;

@@ -1,7 +1,8 @@
-// Runs a technique of TechniqueInput::image on pixels given by a test, on a validated device, and reads the result back.
+// Runs a technique of TechniqueInput::image on pixels given by a test and reads the result back.
 #pragma once
 
 #include <array>
+#include <memory>
 #include <string_view>
 #include <vector>
 
@@ -26,9 +27,18 @@ struct ImageOutput {
   rendergraph::Capture capture;
 };
 
-/// Fails the running test on any validation message.
-ImageOutput runImageTechnique(std::string_view technique, const ImageInput& input,
-                              const passes::ParameterSet& parameters = {},
-                              rendergraph::Timing timing = rendergraph::Timing::none);
+/// Pipelines are kept between runs. The device is support::device().
+class ImageTechniqueRunner {
+ public:
+  ImageTechniqueRunner();
+  ~ImageTechniqueRunner();
+
+  ImageOutput run(std::string_view technique, const ImageInput& input, const passes::ParameterSet& parameters = {},
+                  rendergraph::Timing timing = rendergraph::Timing::none);
+
+ private:
+  struct Gpu;
+  std::unique_ptr<Gpu> gpu_;
+};
 
 }  // namespace support

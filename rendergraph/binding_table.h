@@ -1,0 +1,22 @@
+// The Vulkan objects behind the resources of one execution.
+#pragma once
+
+#include <vulkan/vulkan_core.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace rendergraph {
+
+class ViewCache;
+
+struct Bound {
+  VkImage image = VK_NULL_HANDLE;
+  VkBuffer buffer = VK_NULL_HANDLE;
+  ViewCache* views = nullptr;     ///< Where its views live.
+  std::byte* address = nullptr;   ///< Of host-visible buffers.
+};
+
+using BindingTable = std::vector<Bound>;  ///< By resource of the declaration.
+
+}  // namespace rendergraph

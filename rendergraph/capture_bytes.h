@@ -1,0 +1,14 @@
+// The part of a capture that follows from declaration and plan.
+#pragma once
+
+#include "rendergraph/capture.h"
+#include "rendergraph/executor.h"
+
+namespace rendergraph {
+
+struct Declaration;
+
+/// Names, bytes, barriers and memory; times are left unmeasured. Keeps Capture::planReused.
+void beginCapture(Capture& capture, const Declaration& declaration, const Plan& plan, Timing timing);
+
+}  // namespace rendergraph

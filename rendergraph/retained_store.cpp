@@ -1,0 +1,178 @@
+// Persistent content: made, zeroed, kept, swapped.
+#include "rendergraph/retained_store.h"
+
+#include <string>
+
+#include "rendergraph/declaration.h"
+#include "rendergraph/naming.h"
+
+namespace rendergraph {
+
+namespace {
+
+bool written(const Declaration& declaration, const Plan& plan, uint32_t resource) {
+  for (const PlannedPass& pass : plan.passes) {
+    for (const DeclaredAccess& access : declaration.accessesOfPass(pass.pass)) {
+      if (access.resource == resource && access.writes()) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+RetainedStore::Entry& RetainedStore::entryFor(const DeclaredResource& resource, const RetainedResource& retained) {
+  auto found = entries_.find(resource.key);
+  if (found == entries_.end()) found = entries_.emplace(std::string(resource.key), Entry{}).first;
+  Entry& entry = found->second;
+  const bool same = entry.isImage == resource.isImage && entry.imageDesc == resource.image &&
+                    entry.bufferDesc == resource.buffer && (retained.imageUsage & ~entry.imageUsage) == 0 &&
+                    (retained.bufferUsage & ~entry.bufferUsage) == 0;
+  if (!same) {
+    // Flags are kept, so that two graphs that use it differently settle on one object.
+    const bool sameShape = entry.isImage == resource.isImage && entry.imageDesc == resource.image &&
+                           entry.bufferDesc == resource.buffer;
+    const VkImageUsageFlags imageUsage = (sameShape ? entry.imageUsage : 0) | retained.imageUsage;
+    const VkBufferUsageFlags bufferUsage = (sameShape ? entry.bufferUsage : 0) | retained.bufferUsage;
+    entry = Entry{.isImage = resource.isImage,
+                  .imageDesc = resource.image,
+                  .bufferDesc = resource.buffer,
+                  .imageUsage = imageUsage,
+                  .bufferUsage = bufferUsage,
+                  .previous = 0,
+                  .sides = {}};
+  }
+  return entry;
+}
+
+void RetainedStore::make(const DeclaredResource& resource, const Entry& entry, Side& side) {
+  const MemoryRequirements needs = entry.isImage ? backend_.requirements(entry.imageDesc, entry.imageUsage)
+                                                 : backend_.requirements(entry.bufferDesc, entry.bufferUsage);
+  const MemoryKind memory = entry.isImage ? MemoryKind::device : entry.bufferDesc.memory;
+  Side made;
+  made.heap = OwnedHeap(backend_, backend_.createHeap(needs.size, needs.memoryTypeBits, memory, resource.name));
+  if (entry.isImage) {
+    made.image = OwnedImage(
+        backend_, backend_.createImage(entry.imageDesc, entry.imageUsage, made.heap.get(), 0, resource.key));
+  } else {
+    made.buffer = OwnedBuffer(
+        backend_, backend_.createBuffer(entry.bufferDesc, entry.bufferUsage, made.heap.get(), 0, resource.key));
+    if (memory != MemoryKind::device) made.address = static_cast<std::byte*>(backend_.hostAddress(made.heap.get()));
+  }
+  side = std::move(made);
+}
+
+void RetainedStore::prepare(const Declaration& declaration, const Plan& plan, BindingTable& table) {
+  current_.clear();
+  // Both sides of a history share the flags, so all entries are settled before anything is made.
+  for (const RetainedResource& retained : plan.retained) {
+    entryFor(declaration.resources[retained.resource], retained);
+  }
+  for (const RetainedResource& retained : plan.retained) {
+    const DeclaredResource& resource = declaration.resources[retained.resource];
+    Entry& entry = entryFor(resource, retained);
+    const uint32_t index = resource.origin == Origin::persistent        ? 0
+                           : resource.origin == Origin::historyPrevious ? entry.previous
+                                                                        : 1 - entry.previous;
+    Side& side = entry.sides[index];
+    if (!side.heap) namingResource(resource.name, [&] { make(resource, entry, side); });
+    current_.push_back({.entry = &entry,
+                        .side = &side,
+                        .restLayout = retained.restLayout,
+                        .swaps = resource.origin == Origin::historyNext &&
+                                 written(declaration, plan, retained.resource)});
+    table[retained.resource] = {.image = side.image.get(),
+                                .buffer = side.buffer.get(),
+                                .views = &side.views,
+                                .address = side.address};
+  }
+}
+
+void RetainedStore::barrier(VkCommandBuffer commands, const Current& current, VkImageLayout from, VkImageLayout to) {
+  // Rare (first frame, change of plan), so the widest scopes are good enough.
+  VkMemoryBarrier2 memory{};
+  memory.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
+  memory.srcStageMask = memory.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+  memory.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
+  memory.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
+  VkDependencyInfo dependency{};
+  dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+  VkImageMemoryBarrier2 image{};
+  VkBufferMemoryBarrier2 buffer{};
+  if (current.entry->isImage) {
+    image.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2;
+    image.srcStageMask = memory.srcStageMask;
+    image.srcAccessMask = memory.srcAccessMask;
+    image.dstStageMask = memory.dstStageMask;
+    image.dstAccessMask = memory.dstAccessMask;
+    image.oldLayout = from;
+    image.newLayout = to;
+    image.srcQueueFamilyIndex = image.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+    image.image = current.side->image.get();
+    image.subresourceRange = {aspectsOf(current.entry->imageDesc.format), 0, VK_REMAINING_MIP_LEVELS, 0,
+                              VK_REMAINING_ARRAY_LAYERS};
+    dependency.imageMemoryBarrierCount = 1;
+    dependency.pImageMemoryBarriers = &image;
+  } else {
+    buffer.sType = VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2;
+    buffer.srcStageMask = memory.srcStageMask;
+    buffer.srcAccessMask = memory.srcAccessMask;
+    buffer.dstStageMask = memory.dstStageMask;
+    buffer.dstAccessMask = memory.dstAccessMask;
+    buffer.srcQueueFamilyIndex = buffer.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+    buffer.buffer = current.side->buffer.get();
+    buffer.size = VK_WHOLE_SIZE;
+    dependency.bufferMemoryBarrierCount = 1;
+    dependency.pBufferMemoryBarriers = &buffer;
+  }
+  backend_.barrier(commands, dependency);
+}
+
+void RetainedStore::recordZero(VkCommandBuffer commands, const Current& current) {
+  const VkImage image = current.side->image.get();
+  if (!current.entry->isImage) {
+    backend_.fillBuffer(commands, current.side->buffer.get(), 0);
+    barrier(commands, current, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_UNDEFINED);
+    return;
+  }
+  const ImageDesc& desc = current.entry->imageDesc;
+  const VkImageSubresourceRange range{aspectsOf(desc.format), 0, desc.mips, 0, desc.layers};
+  barrier(commands, current, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+  if ((range.aspectMask & VK_IMAGE_ASPECT_COLOR_BIT) != 0) {
+    backend_.clearImage(commands, image, VkClearColorValue{}, range);
+  } else {
+    backend_.clearDepthImage(commands, image, 0.0f, range);
+  }
+  barrier(commands, current, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, current.restLayout);
+}
+
+void RetainedStore::recordStart(VkCommandBuffer commands) {
+  for (const Current& current : current_) {
+    if (!current.side->valid) {
+      recordZero(commands, current);
+    } else if (current.entry->isImage && current.side->layout != current.restLayout) {
+      barrier(commands, current, current.side->layout, current.restLayout);
+    }
+  }
+}
+
+void RetainedStore::commit() {
+  for (const Current& current : current_) {
+    current.side->valid = true;
+    current.side->layout = current.restLayout;
+    if (current.swaps) current.entry->previous = 1 - current.entry->previous;
+  }
+  current_.clear();
+}
+
+void RetainedStore::invalidate() {
+  for (const Current& current : current_) current.side->valid = false;
+  current_.clear();
+}
+
+void RetainedStore::clear() {
+  current_.clear();
+  entries_.clear();
+}
+
+}  // namespace rendergraph

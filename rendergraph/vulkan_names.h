@@ -1,0 +1,17 @@
+// Short words for Vulkan's stages, accesses and layouts, for dumps.
+#pragma once
+
+#include <vulkan/vulkan_core.h>
+
+#include <string>
+#include <string_view>
+
+namespace rendergraph {
+
+/// Names joined by '+', in the order of the bits; "none" for 0; unknown bits in hexadecimal.
+std::string stageNames(VkPipelineStageFlags2 stages);
+std::string accessNames(VkAccessFlags2 access);
+/// "undefined", "general", …; the number for a layout that the graph never uses itself.
+std::string layoutName(VkImageLayout layout);
+
+}  // namespace rendergraph
