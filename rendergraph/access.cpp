@@ -1,0 +1,104 @@
+// The table of usages; see Vulkan 1.3, "Synchronization and Cache Control", tables of access flags and stages.
+#include "rendergraph/access.h"
+
+#include <array>
+
+namespace rendergraph {
+
+namespace {
+
+// Depth and stencil share these layouts, so that they are right for formats with one or both aspects and need no
+// separateDepthStencilLayouts.
+constexpr VkImageLayout kDepthLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
+constexpr VkImageLayout kDepthReadLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL;
+constexpr VkPipelineStageFlags2 kDepthStages =
+    VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT;
+constexpr VkAccessFlags2 kDepthRead = VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT;
+constexpr VkAccessFlags2 kDepthWrite = VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
+
+struct Row {
+  std::string_view name;
+  VkPipelineStageFlags2 stages;  // 0: the shader stages given by the caller.
+  VkAccessFlags2 read, write;    // 0: the usage cannot do that.
+  VkAccessFlags2 always;         // Besides, in every mode.
+  VkImageLayout layout;
+  VkImageUsageFlags imageUsage;
+  VkBufferUsageFlags bufferUsage;
+};
+
+// Indexed by Usage. A depth attachment that is only written is still tested, hence `always`.
+constexpr std::array<Row, 12> kTable = {{
+    {"sampled", 0, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, 0, 0, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+     VK_IMAGE_USAGE_SAMPLED_BIT, 0},
+    {"storage", 0, VK_ACCESS_2_SHADER_STORAGE_READ_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, 0,
+     VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_USAGE_STORAGE_BIT, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT},
+    {"color attachment", VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
+     VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT, VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT, 0,
+     VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, 0},
+    {"depth attachment", kDepthStages, kDepthRead, kDepthWrite, kDepthRead, kDepthLayout,
+     VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, 0},
+    {"read-only depth attachment", kDepthStages, kDepthRead, 0, 0, kDepthReadLayout,
+     VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, 0},
+    {"transfer source", VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT, 0, 0,
+     VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_IMAGE_USAGE_TRANSFER_SRC_BIT, VK_BUFFER_USAGE_TRANSFER_SRC_BIT},
+    {"transfer destination", VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, 0, VK_ACCESS_2_TRANSFER_WRITE_BIT, 0,
+     VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_USAGE_TRANSFER_DST_BIT, VK_BUFFER_USAGE_TRANSFER_DST_BIT},
+    {"uniform", 0, VK_ACCESS_2_UNIFORM_READ_BIT, 0, 0, VK_IMAGE_LAYOUT_UNDEFINED, 0,
+     VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT},
+    {"indirect", VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT, 0, 0,
+     VK_IMAGE_LAYOUT_UNDEFINED, 0, VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT},
+    {"vertex", VK_PIPELINE_STAGE_2_VERTEX_ATTRIBUTE_INPUT_BIT, VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT, 0, 0,
+     VK_IMAGE_LAYOUT_UNDEFINED, 0, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT},
+    {"index", VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT, VK_ACCESS_2_INDEX_READ_BIT, 0, 0, VK_IMAGE_LAYOUT_UNDEFINED,
+     0, VK_BUFFER_USAGE_INDEX_BUFFER_BIT},
+    // The host needs no usage flag; a buffer that only the host touches must still be creatable.
+    {"host", VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT, VK_ACCESS_2_HOST_WRITE_BIT, 0,
+     VK_IMAGE_LAYOUT_UNDEFINED, 0, VK_BUFFER_USAGE_TRANSFER_SRC_BIT},
+}};
+
+}  // namespace
+
+AccessRules rulesOf(Usage usage, AccessMode mode, VkPipelineStageFlags2 shaderStages) {
+  const Row& row = kTable[static_cast<std::size_t>(usage)];
+  VkAccessFlags2 access = row.always;
+  if (mode != AccessMode::write) access |= row.read;
+  if (mode != AccessMode::read) access |= row.write;
+  return {.stages = row.stages != 0 ? row.stages : shaderStages,
+          .access = access,
+          .layout = row.layout,
+          .imageUsage = row.imageUsage,
+          .bufferUsage = row.bufferUsage};
+}
+
+bool usesShaderStages(Usage usage) { return kTable[static_cast<std::size_t>(usage)].stages == 0; }
+
+bool allows(Usage usage, AccessMode mode) {
+  const Row& row = kTable[static_cast<std::size_t>(usage)];
+  // A transfer or host write of a part keeps the rest without reading it: modify needs only the write.
+  return mode == AccessMode::read ? row.read != 0 : row.write != 0;
+}
+
+bool writesMemory(VkAccessFlags2 access) { return (access & kWriteAccess) != 0; }
+
+VkImageLayout combinedLayout(VkImageLayout a, VkImageLayout b) {
+  if (a == b) return a;
+  const auto oneOf = [&](VkImageLayout layout) { return a == layout || b == layout; };
+  if (oneOf(VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL) || oneOf(kDepthLayout)) return VK_IMAGE_LAYOUT_UNDEFINED;
+  if (oneOf(kDepthReadLayout)) {
+    return oneOf(VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL) ? kDepthReadLayout : VK_IMAGE_LAYOUT_UNDEFINED;
+  }
+  return VK_IMAGE_LAYOUT_GENERAL;
+}
+
+std::string_view nameOf(Usage usage) { return kTable[static_cast<std::size_t>(usage)].name; }
+
+std::string_view nameOf(AccessMode mode) {
+  switch (mode) {
+    case AccessMode::read: return "read";
+    case AccessMode::write: return "write";
+    case AccessMode::modify: return "modify";
+  }
+  return "?";
+}
+
+}  // namespace rendergraph

@@ -1,0 +1,34 @@
+// Packing of resources that are not alive at the same time into one block of memory. Pure: intervals and sizes in,
+// offsets out.
+#pragma once
+
+#include <vulkan/vulkan_core.h>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace rendergraph {
+
+struct AliasItem {
+  VkDeviceSize size = 0;       ///< Bytes, at least 1.
+  VkDeviceSize alignment = 1;  ///< Bytes, a power of two.
+  uint32_t first = 0, last = 0;  ///< Steps during which it is alive, inclusive.
+};
+
+struct Packing {
+  std::vector<VkDeviceSize> offsets;  ///< By item.
+  VkDeviceSize size = 0;              ///< Bytes of the block.
+};
+
+/// Tries several heuristics, then improves the best of them by a bounded search; stops as soon as the lower bound is
+/// reached. Items alive at the same time never overlap; equal input gives equal output.
+Packing packAliased(std::span<const AliasItem> items);
+
+/// Every item has its own bytes.
+Packing packSeparately(std::span<const AliasItem> items);
+
+/// Largest sum of sizes alive at once: no packing can be smaller.
+VkDeviceSize largestLiveSum(std::span<const AliasItem> items);
+
+}  // namespace rendergraph

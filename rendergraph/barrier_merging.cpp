@@ -1,0 +1,70 @@
+// Three sweeps: along layers, along mips, over aspects. Ranges stay rectangles.
+#include "rendergraph/barrier_merging.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace rendergraph {
+
+namespace {
+
+auto meaningOf(const PlacedBarrier& placed) {
+  const ImageBarrier& b = placed.barrier;
+  return std::tuple(placed.step, b.from.pass, b.from.stages, b.from.access, b.to.pass, b.to.stages, b.to.access,
+                    b.oldLayout, b.newLayout, b.reason);
+}
+
+/// `key` sorts barriers so that those to be joined stand side by side; `join` extends the first by the second.
+template <class Key, class Join>
+void sweep(std::vector<PlacedBarrier>& barriers, Key&& key, Join&& join) {
+  std::sort(barriers.begin(), barriers.end(),
+            [&](const PlacedBarrier& a, const PlacedBarrier& b) {
+              return std::tuple(meaningOf(a), key(a.barrier.range)) < std::tuple(meaningOf(b), key(b.barrier.range));
+            });
+  std::size_t kept = 0;
+  for (std::size_t i = 1; i < barriers.size(); ++i) {
+    const bool joined = meaningOf(barriers[kept]) == meaningOf(barriers[i]) &&
+                        join(barriers[kept].barrier.range, barriers[i].barrier.range);
+    if (!joined) barriers[++kept] = barriers[i];
+  }
+  barriers.resize(kept + 1);
+}
+
+}  // namespace
+
+void mergeRanges(std::vector<PlacedBarrier>& barriers) {
+  if (barriers.size() < 2) return;
+  sweep(
+      barriers, [](const Subresources& r) { return std::tuple(r.aspects, r.firstMip, r.firstLayer); },
+      [](Subresources& a, const Subresources& b) {
+        if (a.aspects != b.aspects || a.firstMip != b.firstMip || a.firstLayer + a.layerCount != b.firstLayer) {
+          return false;
+        }
+        a.layerCount += b.layerCount;
+        return true;
+      });
+  sweep(
+      barriers, [](const Subresources& r) { return std::tuple(r.aspects, r.firstLayer, r.layerCount, r.firstMip); },
+      [](Subresources& a, const Subresources& b) {
+        if (a.aspects != b.aspects || a.firstLayer != b.firstLayer || a.layerCount != b.layerCount ||
+            a.firstMip + a.mipCount != b.firstMip) {
+          return false;
+        }
+        a.mipCount += b.mipCount;
+        return true;
+      });
+  sweep(
+      barriers,
+      [](const Subresources& r) {
+        return std::tuple(r.firstLayer, r.layerCount, r.firstMip, r.mipCount, r.aspects);
+      },
+      [](Subresources& a, const Subresources& b) {
+        Subresources same = b;
+        same.aspects = a.aspects;
+        if (!(same == a)) return false;
+        a.aspects |= b.aspects;
+        return true;
+      });
+}
+
+}  // namespace rendergraph

@@ -1,0 +1,175 @@
+// The plain data behind a Graph: what was declared, in the order of the calls, with every default resolved.
+// compile() reads it, nothing changes it but Graph and Pass. Vectors and arena keep their memory over reset().
+#pragma once
+
+#include <vulkan/vulkan_core.h>
+
+#include <cstdint>
+#include <iterator>
+#include <limits>
+#include <source_location>
+#include <string_view>
+#include <vector>
+
+#include "rendergraph/access.h"
+#include "rendergraph/arena.h"
+#include "rendergraph/error.h"
+#include "rendergraph/pass.h"
+#include "rendergraph/resource.h"
+
+namespace rendergraph {
+
+inline constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
+
+/// Who owns a resource and how long it lives.
+enum class Origin : uint8_t {
+  created,          ///< Of the graph, within the frame.
+  imported,         ///< Of the host.
+  persistent,       ///< Of the executor, across frames.
+  historyPrevious,  ///< Of the executor; changes places with historyNext after a frame that wrote that.
+  historyNext,
+};
+
+struct DeclaredResource {
+  std::string_view name;  ///< For people.
+  std::string_view key;   ///< Persistent and history: the name under which the executor keeps it.
+  std::source_location where;
+  bool isImage = true;
+  Origin origin = Origin::created;
+  bool exported = false;
+  uint32_t version = 0;  ///< Writes so far.
+  uint32_t firstAccess = kNone, lastAccess = kNone;  ///< Linked through DeclaredAccess::nextOfResource.
+  ImageDesc image;
+  BufferDesc buffer;
+  VkImageAspectFlags aspects = 0;
+  VkImage importedImage = VK_NULL_HANDLE;
+  VkBuffer importedBuffer = VK_NULL_HANDLE;
+  VkImageUsageFlags importedImageUsage = 0;
+  VkBufferUsageFlags importedBufferUsage = 0;
+  AccessState before;  ///< Imported only.
+  AccessState after;   ///< Imported or exported.
+
+  bool created() const { return origin == Origin::created; }
+  bool imported() const { return origin == Origin::imported; }
+  /// Kept by the executor.
+  bool retained() const { return !created() && !imported(); }
+  /// Whether its final content is seen by somebody outside the graph.
+  bool observable() const { return exported || !created(); }
+};
+
+enum class AttachmentRole : uint8_t { none, color, depth };
+
+struct DeclaredAccess {
+  uint32_t pass = kNone;
+  uint32_t resource = kNone;
+  uint32_t nextOfPass = kNone;      ///< Next access of the same pass, in order of calls.
+  uint32_t nextOfResource = kNone;  ///< Next access of the same resource, in order of calls.
+  uint32_t version = 0;             ///< Of the handle that was given.
+  Usage usage = Usage::sampled;
+  AccessMode mode = AccessMode::read;
+  AttachmentRole role = AttachmentRole::none;
+  LoadOp load = LoadOp::dontCare;
+  VkClearValue clear = {};
+  Subresources range;  ///< Resolved; {0, 1, 0, 1, 0} for buffers.
+  VkPipelineStageFlags2 stages = 0;
+  VkAccessFlags2 access = 0;
+  VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;  ///< Agreed among overlapping accesses of the pass.
+  std::source_location where;
+
+  bool writes() const { return mode != AccessMode::read; }
+  bool needsContent() const { return mode != AccessMode::write; }
+};
+
+struct DeclaredPass {
+  using Recorder = void (*)(void* recording, PassContext& context);
+  using Destroyer = void (*)(void* recording);
+
+  std::string_view name;
+  std::source_location where;
+  PassKind kind = PassKind::compute;
+  QueuePreference queue = QueuePreference::graphics;
+  bool sideEffect = false;
+  uint32_t firstAccess = kNone, lastAccess = kNone;  ///< Linked through DeclaredAccess::nextOfPass.
+  VkExtent2D renderArea = {0, 0};  ///< Raster: of the attachments, or as declared.
+  uint32_t renderLayers = 1;
+  bool hasAttachments = false;
+  void* recording = nullptr;
+  Recorder recorder = nullptr;
+  Destroyer destroyer = nullptr;
+};
+
+/// The accesses of one pass or of one resource, for range-for.
+template <uint32_t DeclaredAccess::*Next>
+class AccessList {
+ public:
+  struct Iterator {
+    const std::vector<DeclaredAccess>* accesses;
+    uint32_t index;
+    const DeclaredAccess& operator*() const { return (*accesses)[index]; }
+    Iterator& operator++() {
+      index = (*accesses)[index].*Next;
+      return *this;
+    }
+    bool operator!=(const Iterator& other) const { return index != other.index; }
+  };
+  AccessList(const std::vector<DeclaredAccess>& accesses, uint32_t first) : accesses_(&accesses), first_(first) {}
+  Iterator begin() const { return {accesses_, first_}; }
+  Iterator end() const { return {accesses_, kNone}; }
+
+ private:
+  const std::vector<DeclaredAccess>* accesses_;
+  uint32_t first_;
+};
+
+struct Declaration {
+  uint32_t serial = 0;  ///< Stamped on handles, so that those of another declaration are recognised.
+  std::vector<DeclaredResource> resources;
+  std::vector<DeclaredPass> passes;
+  std::vector<DeclaredAccess> accesses;  ///< In order of calls.
+  std::vector<GraphError::Problem> problems;
+  Arena arena;
+
+  Declaration();
+  ~Declaration();
+  Declaration(const Declaration&) = delete;
+  Declaration& operator=(const Declaration&) = delete;
+
+  /// Destroys the recordings, forgets everything, keeps the memory, and takes a new serial number.
+  void reset();
+
+  AccessList<&DeclaredAccess::nextOfPass> accessesOfPass(uint32_t pass) const {
+    return {accesses, passes[pass].firstAccess};
+  }
+  AccessList<&DeclaredAccess::nextOfResource> accessesOfResource(uint32_t resource) const {
+    return {accesses, resources[resource].firstAccess};
+  }
+
+  /// Notes a misuse to be thrown by compile(). kNone for a pass or resource that is not concerned.
+  void report(Misuse misuse, uint32_t pass, uint32_t resource, std::string reason, std::string remedy,
+              std::source_location where);
+  /// The same as data.
+  GraphError::Problem problem(Misuse misuse, uint32_t pass, uint32_t resource, std::string reason,
+                              std::string remedy, std::source_location where) const;
+
+  /// Index of the resource that a handle names. Throws GraphError (unknownHandle, foreignHandle) when it names
+  /// none of this declaration; nothing sensible could follow such a handle.
+  template <class Tag>
+  uint32_t indexOf(const Handle<Tag>& handle, uint32_t pass, std::source_location where) const {
+    return indexOf(handle.resource, handle.graph, pass, where);
+  }
+
+ private:
+  uint32_t indexOf(uint32_t resource, uint32_t graph, uint32_t pass, std::source_location where) const;
+  void destroyRecordings();
+};
+
+/// State in which a persistent resource rests between frames: every later use is ordered after the last one, and
+/// everything is visible to it. An exported one rests in the layout that the host asked for, the others in GENERAL,
+/// which every use of an image allows.
+inline AccessState restStateOf(const DeclaredResource& resource) {
+  return {.stages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+          .access = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT,
+          .layout = resource.exported ? resource.after.layout : VK_IMAGE_LAYOUT_GENERAL};
+}
+
+}  // namespace rendergraph

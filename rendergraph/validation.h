@@ -1,0 +1,17 @@
+// What can only be wrong about a declaration as a whole, or about a device. Pure.
+#pragma once
+
+#include <vector>
+
+#include "rendergraph/compiler.h"
+#include "rendergraph/error.h"
+
+namespace rendergraph {
+
+class Cells;
+
+/// The problems noted by the declaration calls, followed by those found here, in order of declaration.
+std::vector<GraphError::Problem> findProblems(const Declaration& declaration, const Cells& cells,
+                                              const DeviceFacts& device);
+
+}  // namespace rendergraph

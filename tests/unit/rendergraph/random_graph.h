@@ -1,0 +1,10 @@
+// Random declarations that are right by construction: the same seed gives the same graph.
+#pragma once
+
+#include <cstdint>
+
+#include "rendergraph/graph.h"
+
+/// Fills a graph with about `passes` passes of all kinds over images with mips, layers and aspects, buffers, imports,
+/// exports, persistent resources and histories.
+void declareRandom(rendergraph::Graph& graph, uint32_t seed, uint32_t passes);
