@@ -32,6 +32,7 @@ struct NeededFeature {
 const NeededFeature kNeeded[] = {
     {"dynamicRendering", [](Features& f) -> VkBool32& { return f.v13.dynamicRendering; }},
     {"synchronization2", [](Features& f) -> VkBool32& { return f.v13.synchronization2; }},
+    {"maintenance4", [](Features& f) -> VkBool32& { return f.v13.maintenance4; }},
     {"timelineSemaphore", [](Features& f) -> VkBool32& { return f.v12.timelineSemaphore; }},
     {"hostQueryReset", [](Features& f) -> VkBool32& { return f.v12.hostQueryReset; }},
     {"geometryShader", [](Features& f) -> VkBool32& { return f.core.features.geometryShader; }},
