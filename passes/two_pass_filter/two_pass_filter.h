@@ -1,5 +1,6 @@
-// Depth of field as a two-pass filter of one picture and its depth: Zhou, Chen, Pullen, "Accurate Depth of Field
-// Simulation in Real Time", Computer Graphics Forum 2007. What it approximates and what that looks like: README.md.
+// Depth of field as a two-pass filter of one picture and its depth: Zhou, Chen, Pullen, "Accurate Depth of
+// Field Simulation in Real Time", Computer Graphics Forum 2007. What it approximates and what that looks
+// like: README.md.
 #pragma once
 
 #include <span>
@@ -22,8 +23,9 @@ std::span<const Field<Parameters>> fields();
 /// What is wrong with inputs; empty when nothing is.
 std::vector<Problem> validate(const Parameters& parameters, const DofInputs& inputs);
 
-/// Declares six nodes: clear_statistics, prepare, tiles, reach, vertical, horizontal; none when the lens has no aperture, and
-/// the output is then inputs.color itself. Throws GraphError when the images have another size than inputs.extent.
+/// Declares six nodes: clear_statistics, prepare, tiles, reach, vertical, horizontal; none when the lens has
+/// no aperture, and the output is then inputs.color itself. Throws GraphError when the images have another
+/// size than inputs.extent.
 DofOutputs declare(rendergraph::Graph& graph, const DofInputs& inputs, const Parameters& parameters);
 
 /// The registry's entry.

@@ -16,8 +16,8 @@ using Rgba = std::array<float, 4>;
 
 struct ImageInput {
   VkExtent2D extent = {0, 0};
-  std::vector<Rgba> color;           ///< Row by row.
-  std::vector<float> depth;          ///< What a depth buffer would hold; see lens.vergenceScale.
+  std::vector<Rgba> color;   ///< Row by row.
+  std::vector<float> depth;  ///< What a depth buffer would hold; see lens.vergenceScale.
   shared::LensConstants lens{};
 };
 
@@ -33,7 +33,8 @@ class ImageTechniqueRunner {
   ImageTechniqueRunner();
   ~ImageTechniqueRunner();
 
-  ImageOutput run(std::string_view technique, const ImageInput& input, const passes::ParameterSet& parameters = {},
+  ImageOutput run(std::string_view technique, const ImageInput& input,
+                  const passes::ParameterSet& parameters = {},
                   rendergraph::Timing timing = rendergraph::Timing::none);
 
  private:

@@ -20,20 +20,29 @@ constexpr float kNear = 0.1f;  // m
 
 /// Focus at 2 m; K in px·m.
 shared::LensConstants lens(float cocScale, float focusDistance = 2.0f) {
-  return {.cocScale = cocScale, .focusVergence = 1.0f / focusDistance, .maxCocRadius = 1e30f,
-          .vergenceScale = 1.0f / kNear, .vergenceOffset = 0.0f};
+  return {.cocScale = cocScale,
+          .focusVergence = 1.0f / focusDistance,
+          .maxCocRadius = 1e30f,
+          .vergenceScale = 1.0f / kNear,
+          .vergenceOffset = 0.0f};
 }
 
-float depthBuffer(float viewDepth) { return kNear / viewDepth; }
+float depthBuffer(float viewDepth) {
+  return kNear / viewDepth;
+}
 
-std::size_t at(const ImageInput& input, uint32_t x, uint32_t y) { return std::size_t{y} * input.extent.width + x; }
+std::size_t at(const ImageInput& input, uint32_t x, uint32_t y) {
+  return std::size_t{y} * input.extent.width + x;
+}
 
 ImageInput uniform(VkExtent2D extent, Rgba color, float viewDepth, float cocScale) {
   const std::size_t count = std::size_t{extent.width} * extent.height;
-  return {extent, std::vector<Rgba>(count, color), std::vector<float>(count, depthBuffer(viewDepth)), lens(cocScale)};
+  return {extent, std::vector<Rgba>(count, color), std::vector<float>(count, depthBuffer(viewDepth)),
+          lens(cocScale)};
 }
 
-/// Rectangles at random depths in front of and behind focus, some in focus, over the sky; random colours, a few bright.
+/// Rectangles at random depths in front of and behind focus, some in focus, over the sky; random colours, a
+/// few bright.
 ImageInput randomRectangles(VkExtent2D extent, uint32_t seed, float cocScale) {
   std::mt19937 random(seed);
   const auto upTo = [&](uint32_t n) { return static_cast<uint32_t>(random() % n); };
@@ -41,7 +50,8 @@ ImageInput randomRectangles(VkExtent2D extent, uint32_t seed, float cocScale) {
   for (auto& texel : input.color) texel[0] = static_cast<float>(upTo(100)) / 100.0f;
   for (int i = 0; i < 24; ++i) {
     const uint32_t left = upTo(extent.width), top = upTo(extent.height);
-    const uint32_t right = std::min(extent.width, left + 1 + upTo(40)), bottom = std::min(extent.height, top + 1 + upTo(40));
+    const uint32_t right = std::min(extent.width, left + 1 + upTo(40)),
+                   bottom = std::min(extent.height, top + 1 + upTo(40));
     const float depth = i % 3 == 0 ? 2.0f : 0.503f + 0.251f * static_cast<float>(upTo(40));
     const float bright = i % 8 == 0 ? 20.0f : 1.0f;
     for (uint32_t y = top; y < bottom; ++y) {
@@ -55,17 +65,20 @@ ImageInput randomRectangles(VkExtent2D extent, uint32_t seed, float cocScale) {
   return input;
 }
 
-std::vector<std::array<double, 3>> reference(const ImageInput& input, const passes::ParameterSet& parameters = {}) {
+std::vector<std::array<double, 3>> reference(const ImageInput& input,
+                                             const passes::ParameterSet& parameters = {}) {
   const auto number = [&](const char* name, double fallback) {
     const auto found = parameters.find(name);
     return found == parameters.end() ? fallback : std::get<double>(found->second);
   };
-  support::RgbzPicture picture{static_cast<int>(input.extent.width), static_cast<int>(input.extent.height), {}, {}};
+  support::RgbzPicture picture{
+      static_cast<int>(input.extent.width), static_cast<int>(input.extent.height), {}, {}};
   for (const auto& c : input.color) {
     picture.rgb.push_back({static_cast<double>(c[0]), static_cast<double>(c[1]), static_cast<double>(c[2])});
   }
   for (const float z : input.depth) {
-    picture.viewDepth.push_back(1.0 / (static_cast<double>(input.lens.vergenceScale) * static_cast<double>(z)));
+    picture.viewDepth.push_back(1.0 /
+                                (static_cast<double>(input.lens.vergenceScale) * static_cast<double>(z)));
   }
   return filterTwoPass(picture, {.pixelsPerTangent = static_cast<double>(input.lens.cocScale),
                                  .apertureRadius = 1.0,
@@ -75,9 +88,9 @@ std::vector<std::array<double, 3>> reference(const ImageInput& input, const pass
                                  .leakage = number("leakage", 1.0)});
 }
 
-/// Largest |a - b| / max(|b|, 0.01) over pixels and channels. Float sums of some hundred terms stay below 1e-4; a wrong
-/// or missing tap is far above. Where a radius is within rounding of a whole number, a tap may weigh 1e-6 or nothing:
-/// the pictures avoid such radii and keep highlights moderate.
+/// Largest |a - b| / max(|b|, 0.01) over pixels and channels. Float sums of some hundred terms stay below
+/// 1e-4; a wrong or missing tap is far above. Where a radius is within rounding of a whole number, a tap may
+/// weigh 1e-6 or nothing: the pictures avoid such radii and keep highlights moderate.
 double largestError(const std::vector<Rgba>& color, const std::vector<std::array<double, 3>>& expected) {
   double worst = 0.0;
   for (std::size_t i = 0; i < color.size(); ++i) {
@@ -113,7 +126,8 @@ TEST_F(TwoPassFilterGpu, EqualsTheReferenceForAllParameters) {
   const auto input = randomRectangles({97, 64}, 4, 60.0f);
   for (const passes::ParameterSet& parameters :
        {passes::ParameterSet{{"maxRadius", 5.5}}, passes::ParameterSet{{"minRadius", 2.0}},
-        passes::ParameterSet{{"leakage", 0.0}}, passes::ParameterSet{{"leakage", 0.05}, {"minRadius", 0.1}}}) {
+        passes::ParameterSet{{"leakage", 0.0}},
+        passes::ParameterSet{{"leakage", 0.05}, {"minRadius", 0.1}}}) {
     EXPECT_LT(largestError(run(input, parameters).color, reference(input, parameters)), 1e-4);
   }
 }
@@ -126,11 +140,12 @@ TEST_F(TwoPassFilterGpu, EqualsTheReferenceAtEverySize) {
   }
 }
 
-// A blur far wider than the picture, and a single near pixel whose blur just reaches into tiles far away: taps that the
-// tiles leave out must be those that weigh nothing.
+// A blur far wider than the picture, and a single near pixel whose blur just reaches into tiles far away:
+// taps that the tiles leave out must be those that weigh nothing.
 TEST_F(TwoPassFilterGpu, TilesLeaveOutNothingThatCounts) {
   EXPECT_LT(largestError(run(randomRectangles({70, 50}, 6, 4000.0f)).color,
-                         reference(randomRectangles({70, 50}, 6, 4000.0f))), 1e-4);
+                         reference(randomRectangles({70, 50}, 6, 4000.0f))),
+            1e-4);
   for (const float radius : {1.01f, 16.5f, 17.1f, 31.9f, 33.01f, 48.5f}) {
     for (const uint32_t x : {47u, 48u, 63u}) {
       auto input = uniform({112, 40}, {0.1f, 0.1f, 0.1f, 1.0f}, 2.0f, 100.0f);
@@ -228,9 +243,10 @@ TEST_F(TwoPassFilterGpu, TheBackgroundDoesNotLeakOntoWhatIsInFocus) {
   EXPECT_GT(run(input).color[at(input, 17, 30)][0], 0.0f);
 }
 
-// A focus pull in small steps changes the picture in small steps (no popping): four times the steps, about a quarter of
-// the largest change between neighbouring frames. With a small lens, since the filter answers steeply where a pixel near
-// focus begins to reach over a blurred one: its weight is r_c² times as large (passes/two_pass_filter/README.md).
+// A focus pull in small steps changes the picture in small steps (no popping): four times the steps, about a
+// quarter of the largest change between neighbouring frames. With a small lens, since the filter answers
+// steeply where a pixel near focus begins to reach over a blurred one: its weight is r_c² times as large
+// (passes/two_pass_filter/README.md).
 TEST_F(TwoPassFilterGpu, AFocusPullIsContinuous) {
   auto input = randomRectangles({32, 32}, 12, 4.0f);
   const auto largestStep = [&](int steps) {
@@ -239,7 +255,8 @@ TEST_F(TwoPassFilterGpu, AFocusPullIsContinuous) {
     for (int i = 0; i <= steps; ++i) {
       input.lens.focusVergence = 0.2f + 0.6f * static_cast<float>(i) / static_cast<float>(steps);
       const auto color = run(input).color;
-      for (std::size_t p = 0; p < before.size(); ++p) worst = std::max(worst, std::abs(color[p][1] - before[p][1]));
+      for (std::size_t p = 0; p < before.size(); ++p)
+        worst = std::max(worst, std::abs(color[p][1] - before[p][1]));
       before = color;
     }
     return worst;
