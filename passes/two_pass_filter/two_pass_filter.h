@@ -15,7 +15,7 @@ namespace passes::two_pass_filter {
 struct Parameters {
   float maxRadius = 256.0f;  ///< px, 1…1024: blur radii are limited to it.
   float minRadius = 0.5f;    ///< px, 0.1…2: r_min of the intensity 1/max(r, r_min)².
-  float leakage = 1.0f;      ///< 1/px, 0…16: k of L = min(1, k·r_c).
+  float leakage = 0.25f;     ///< 1/px, 0…16: k of L = min(1, k·r_c).
 };
 
 std::span<const Field<Parameters>> fields();

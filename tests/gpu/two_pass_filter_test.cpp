@@ -85,7 +85,7 @@ std::vector<std::array<double, 3>> reference(const ImageInput& input,
                                  .focusDistance = 1.0 / static_cast<double>(input.lens.focusVergence),
                                  .maxRadius = number("maxRadius", 256.0),
                                  .minRadius = number("minRadius", 0.5),
-                                 .leakage = number("leakage", 1.0)});
+                                 .leakage = number("leakage", 0.25)});
 }
 
 /// Largest |a - b| / max(|b|, 0.01) over pixels and channels. Float sums of some hundred terms stay below

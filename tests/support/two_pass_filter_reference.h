@@ -20,7 +20,7 @@ struct TwoPassFilterSettings {
   double focusDistance = 1.0;     ///< m; infinity allowed.
   double maxRadius = 256.0;       ///< px.
   double minRadius = 0.5;         ///< px.
-  double leakage = 1.0;           ///< 1/px.
+  double leakage = 0.25;          ///< 1/px.
 };
 
 /// Precondition: all values finite (depth may be infinite), depths > 0.
