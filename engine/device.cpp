@@ -32,6 +32,7 @@ struct NeededFeature {
 const NeededFeature kNeeded[] = {
     {"dynamicRendering", [](Features& f) -> VkBool32& { return f.v13.dynamicRendering; }},
     {"synchronization2", [](Features& f) -> VkBool32& { return f.v13.synchronization2; }},
+    {"maintenance4", [](Features& f) -> VkBool32& { return f.v13.maintenance4; }},
     {"timelineSemaphore", [](Features& f) -> VkBool32& { return f.v12.timelineSemaphore; }},
     {"hostQueryReset", [](Features& f) -> VkBool32& { return f.v12.hostQueryReset; }},
     {"geometryShader", [](Features& f) -> VkBool32& { return f.core.features.geometryShader; }},
@@ -187,9 +188,6 @@ void Device::createDevice() {
   limits_ = properties.limits;
   vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
 }
-
-const std::vector<std::string>& Device::validationMessages() const { return instance_.log().messages; }
-void Device::clearValidationMessages() { instance_.log().messages.clear(); }
 
 void Device::setName(VkObjectType type, uint64_t object, const std::string& name) const {
   // Names cost the driver memory and are read only under validation and debuggers, which load the same extension.

@@ -14,7 +14,7 @@ struct DeviceOptions {
   /// Index in listDevices(), or part of a device's name (any case). Empty: the most capable usable device
   /// (discrete, then integrated, virtual, CPU).
   std::string select;
-  bool validation = false;  ///< Core and synchronization validation; messages in Device::validationMessages().
+  bool validation = false;  ///< Core and synchronization validation; messages in Device::validationLog().
 };
 
 struct DeviceDescription {
@@ -45,9 +45,8 @@ class Device {
   const VkPhysicalDeviceLimits& limits() const { return limits_; }
   const VkPhysicalDeviceMemoryProperties& memory() const { return memory_; }
 
-  /// Everything the validation layers have said since the last clearing; empty without validation.
-  const std::vector<std::string>& validationMessages() const;
-  void clearValidationMessages();
+  /// Everything the validation layers have said; empty without validation. Outlives the device.
+  const std::shared_ptr<ValidationLog>& validationLog() const { return instance_.log(); }
 
   /// A name for debuggers and validation messages; does nothing without debug utils.
   void setName(VkObjectType type, uint64_t object, const std::string& name) const;
@@ -56,7 +55,7 @@ class Device {
   void choose(const std::string& select);
   void createDevice();
 
-  mutable VulkanInstance instance_;
+  VulkanInstance instance_;
   DeviceDescription description_;
   VkPhysicalDevice physical_ = VK_NULL_HANDLE;
   VkDevice device_ = VK_NULL_HANDLE;

@@ -12,6 +12,8 @@
 #include <atomic>
 #include <cctype>
 #include <cmath>
+#include <cstdint>
+#include <fstream>
 #include <memory>
 #include <new>
 #include <string>
@@ -69,10 +71,30 @@ void requireReadableFile(const fs::path& path) {
   if (!error && bytes == 0) fail(path, "is empty (0 bytes)");
 }
 
+// Walks the chunks of a PNG to its end. libpng would find a truncated file too, but reports it on stderr by
+// itself.
+void requireWholePng(const fs::path& path) {
+  constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
+  std::ifstream stream(path, std::ios::binary);
+  char head[8] = {};
+  if (!stream.read(head, 8) || std::string_view(head, 8) != kSignature) fail(path, "is not a PNG file");
+  const auto end = static_cast<int64_t>(fs::file_size(path));
+  for (int64_t offset = 8; stream.read(head, 8);) {
+    uint32_t length = 0;
+    for (int i = 0; i < 4; ++i) length = length << 8 | static_cast<unsigned char>(head[i]);
+    offset += 12 + int64_t{length};  // length, type, data, checksum
+    if (offset > end) break;
+    if (std::string_view(head + 4, 4) == "IEND") return;
+    stream.seekg(offset);
+  }
+  fail(path, "is damaged or truncated");
+}
+
 Input openInput(const fs::path& path) {
   Input input;
   input.format = formatOf(path);
   requireReadableFile(path);
+  if (input.format == Format::png) requireWholePng(path);
   OIIO::ImageSpec config;
   config.attribute("oiio:UnassociatedAlpha", 1);
   input.file = OIIO::ImageInput::open(path.string(), &config);

@@ -194,12 +194,15 @@ void measureDisplayed(const FloatImage& a, const FloatImage& b, const std::vecto
 
 }  // namespace
 
+// In double: 1 maps to 1 exactly, and a sum over a picture sees no rounding of the curve.
 float srgbFromLinear(float linear) {
-  return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
+  const double x = linear;
+  return static_cast<float>(x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055);
 }
 
 float linearFromSrgb(float encoded) {
-  return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
+  const double x = encoded;
+  return static_cast<float>(x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4));
 }
 
 FloatImage displayed(const FloatImage& image, double exposureEv) {
@@ -211,8 +214,7 @@ FloatImage displayed(const FloatImage& image, double exposureEv) {
       const double exposed = image.samples[i * image.channels + c] * gain;
       // The comparison is written so that NaN becomes 0: what a display would show.
       const double clamped = exposed > 0.0 ? std::min(exposed, 1.0) : 0.0;
-      // 1.055 − 0.055 is one ulp above 1 in float.
-      result.samples[i * channels + c] = std::min(srgbFromLinear(static_cast<float>(clamped)), 1.0f);
+      result.samples[i * channels + c] = srgbFromLinear(static_cast<float>(clamped));
     }
   }
   return result;

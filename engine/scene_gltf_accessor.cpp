@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "engine/scene_gltf_internal.h"
 
@@ -131,10 +132,10 @@ std::vector<uint8_t> packedBytes(const Document& document, int index, int compon
 // glTF 2.0 §3.6.2.2 for normalised integers; others stand for themselves.
 template <typename T>
 void convert(const std::vector<uint8_t>& bytes, bool isNormalized, std::vector<float>& values) {
-  const float scale = isNormalized ? 1.0f / static_cast<float>(std::numeric_limits<T>::max()) : 1.0f;
+  const float divisor = isNormalized ? static_cast<float>(std::numeric_limits<T>::max()) : 1.0f;
   const float least = isNormalized ? -1.0f : std::numeric_limits<float>::lowest();
   for (size_t i = 0; i < values.size(); ++i)
-    values[i] = std::max(static_cast<float>(valueAt<T>(bytes, i)) * scale, least);
+    values[i] = std::max(static_cast<float>(valueAt<T>(bytes, i)) / divisor, least);
 }
 
 // Which bit of ComponentTypes an accessor needs; 0 when no attribute may be of that type.

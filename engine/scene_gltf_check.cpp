@@ -16,7 +16,20 @@ namespace {
 
 using Json = nlohmann::json;
 
-enum class Kind { object, array, string, strings, boolean, number, numbers, size, index, indices, indexMap };
+enum class Kind {
+  object,
+  array,
+  string,
+  strings,
+  boolean,
+  number,
+  numbers,
+  size,
+  smallInteger,
+  index,
+  indices,
+  indexMap
+};
 enum class Need { optional, required };
 
 // Path: members separated by dots; "[]" stands for every element of an array.
@@ -63,19 +76,19 @@ constexpr Rule kRules[] = {
     {"accessors[]", Kind::object},
     {"accessors[].bufferView", Kind::index, "bufferViews"},
     {"accessors[].byteOffset", Kind::size},
-    {"accessors[].componentType", Kind::size, {}, 0, kRequired},
+    {"accessors[].componentType", Kind::smallInteger, {}, 0, kRequired},
     {"accessors[].count", Kind::size, {}, 0, kRequired},
     {"accessors[].type", Kind::string, {}, 0, kRequired},
     {"accessors[].normalized", Kind::boolean},
     {"accessors[].sparse", Kind::object},
-    {"accessors[].sparse.count", Kind::size, {}, 0, kRequired},
+    {"accessors[].sparse.count", Kind::smallInteger, {}, 0, kRequired},
     {"accessors[].sparse.indices", Kind::object, {}, 0, kRequired},
     {"accessors[].sparse.indices.bufferView", Kind::index, "bufferViews", 0, kRequired},
-    {"accessors[].sparse.indices.byteOffset", Kind::size},
-    {"accessors[].sparse.indices.componentType", Kind::size, {}, 0, kRequired},
+    {"accessors[].sparse.indices.byteOffset", Kind::smallInteger},
+    {"accessors[].sparse.indices.componentType", Kind::smallInteger, {}, 0, kRequired},
     {"accessors[].sparse.values", Kind::object, {}, 0, kRequired},
     {"accessors[].sparse.values.bufferView", Kind::index, "bufferViews", 0, kRequired},
-    {"accessors[].sparse.values.byteOffset", Kind::size},
+    {"accessors[].sparse.values.byteOffset", Kind::smallInteger},
 
     {"images", Kind::array},
     {"images[]", Kind::object},
@@ -84,10 +97,10 @@ constexpr Rule kRules[] = {
     {"images[].name", Kind::string},
     {"samplers", Kind::array},
     {"samplers[]", Kind::object},
-    {"samplers[].magFilter", Kind::size},
-    {"samplers[].minFilter", Kind::size},
-    {"samplers[].wrapS", Kind::size},
-    {"samplers[].wrapT", Kind::size},
+    {"samplers[].magFilter", Kind::smallInteger},
+    {"samplers[].minFilter", Kind::smallInteger},
+    {"samplers[].wrapS", Kind::smallInteger},
+    {"samplers[].wrapT", Kind::smallInteger},
     {"textures", Kind::array},
     {"textures[]", Kind::object},
     {"textures[].sampler", Kind::index, "samplers"},
@@ -120,7 +133,7 @@ constexpr Rule kRules[] = {
     {"meshes[].primitives[].attributes", Kind::indexMap, "accessors", 0, kRequired},
     {"meshes[].primitives[].indices", Kind::index, "accessors"},
     {"meshes[].primitives[].material", Kind::index, "materials"},
-    {"meshes[].primitives[].mode", Kind::size},
+    {"meshes[].primitives[].mode", Kind::smallInteger},
     {"meshes[].primitives[].targets", Kind::array},
 
     {"cameras", Kind::array},
@@ -172,13 +185,13 @@ constexpr std::string_view kTextureInfos[] = {
 constexpr Rule kTextureInfoRules[] = {
     {"", Kind::object},
     {".index", Kind::index, "textures", 0, kRequired},
-    {".texCoord", Kind::size},
+    {".texCoord", Kind::smallInteger},
     {".extensions", Kind::object},
     {".extensions.KHR_texture_transform", Kind::object},
     {".extensions.KHR_texture_transform.offset", Kind::numbers, {}, 2},
     {".extensions.KHR_texture_transform.scale", Kind::numbers, {}, 2},
     {".extensions.KHR_texture_transform.rotation", Kind::number},
-    {".extensions.KHR_texture_transform.texCoord", Kind::size},
+    {".extensions.KHR_texture_transform.texCoord", Kind::smallInteger},
 };
 
 class Checker {
@@ -225,6 +238,10 @@ class Checker {
         return require(value.is_number(), field, "is not a number");
       case Kind::size:
         checkSize(value, field);
+        return;
+      case Kind::smallInteger:
+        // tinygltf keeps these as int and drops what does not fit.
+        if (checkSize(value, field) > INT_MAX) fail(field, "is " + value.dump() + ", too large");
         return;
       case Kind::index:
         return checkIndex(value, field, rule.target);

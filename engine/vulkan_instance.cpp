@@ -87,7 +87,7 @@ void VulkanInstance::create(bool validation) {
   VkValidationFeaturesEXT features{VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT};
   features.enabledValidationFeatureCount = 1;
   features.pEnabledValidationFeatures = enables;
-  const auto messenger = messengerInfo(log_);
+  const auto messenger = messengerInfo(*log_);
   if (validation) {
     // Without this variable the layer does not look across command buffers of one queue.
     setenv("VK_LAYER_ENABLES", "VALIDATION_CHECK_ENABLE_SYNCHRONIZATION_VALIDATION_QUEUE_SUBMIT", 0);

@@ -1,6 +1,7 @@
 // The Vulkan instance, and what the validation layers say.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -24,14 +25,15 @@ class VulkanInstance {
 
   VkInstance handle() const { return instance_; }
   bool validates() const { return messenger_ != VK_NULL_HANDLE; }
-  ValidationLog& log() { return log_; }
+  /// Outlives the instance, so that what is said at its destruction (leaked objects) can be read.
+  const std::shared_ptr<ValidationLog>& log() const { return log_; }
 
  private:
   void create(bool validation);
 
   VkInstance instance_ = VK_NULL_HANDLE;
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
-  ValidationLog log_;
+  std::shared_ptr<ValidationLog> log_ = std::make_shared<ValidationLog>();
 };
 
 }  // namespace engine

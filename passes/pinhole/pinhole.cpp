@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "passes/lens_view.h"
+#include "passes/sanitize.h"
 #include "passes/scene_view.h"
 #include "passes/view_mean.h"
 
@@ -42,9 +43,10 @@ DofOutputs declare(rendergraph::Graph& graph, const DofInputs& inputs, const Par
   DofInputs sharp = inputs;
   sharp.lens.cocScale = 0.0f;
   const auto centre = viewFromLens(sharp, {0.0f, 0.0f}, {0.0f, 0.0f});
-  const auto view = declareSceneView(graph, sharp, "pinhole", centre, declareStatistics(graph, "pinhole"));
+  auto view = declareSceneView(graph, sharp, "pinhole", centre, declareStatistics(graph, "pinhole"));
   // With more samples the centre's view is kept for its depth alone, and culled when nobody asks for that.
   if (parameters.pixelSamples == 1) {
+    declareSanitize(graph, "pinhole", view.color, view.statistics);
     return {.color = view.color, .depth = view.depth, .standardError = {}, .statistics = view.statistics};
   }
   auto out = declareViewMean(graph, sharp, meanOf(parameters));

@@ -106,10 +106,10 @@ json readJsonFile(const std::filesystem::path& file) {
   }
 }
 
-JsonNode::JsonNode(const json& document, const std::filesystem::path& file)
+JsonNode::JsonNode(const nlohmann::json& document, const std::filesystem::path& file)
     : value_(&document), file_(file.string()) {}
 
-JsonNode::JsonNode(const json& value, const JsonNode& parent, std::string path)
+JsonNode::JsonNode(const nlohmann::json& value, const JsonNode& parent, std::string path)
     : value_(&value), file_(parent.file_), path_(std::move(path)) {}
 
 void JsonNode::fail(const std::string& reason, const std::string& remedy) const {

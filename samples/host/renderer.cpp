@@ -114,6 +114,11 @@ void add(shared::FrameStatistics& total, const shared::FrameStatistics& frame) {
 /// Vergence of a depth picture's sample; what is not a positive depth is infinitely far.
 float vergenceOf(float depth) { return depth > 0.0f && depth < kNothingHit ? 1.0f / depth : 0.0f; }
 
+std::optional<engine::Environment> loadEnvironment(const Shot& shot) {
+  if (!shot.environment) return std::nullopt;
+  return engine::prepareEnvironment(engine::readImage(*shot.environment));
+}
+
 }  // namespace
 
 struct Renderer::State {
@@ -138,10 +143,11 @@ struct Renderer::State {
 };
 
 Renderer::Renderer(engine::Device& device, const Shot& shot, std::vector<std::string>& warnings)
+    : Renderer(device, loadShotScene(shot, warnings), loadEnvironment(shot)) {}
+
+Renderer::Renderer(engine::Device& device, engine::Scene scene, const std::optional<engine::Environment>& environment)
     : state_(std::make_unique<State>(device)) {
-  state_->scene = loadShotScene(shot, warnings);
-  std::optional<engine::Environment> environment;
-  if (shot.environment) environment = engine::prepareEnvironment(engine::readImage(*shot.environment));
+  state_->scene = std::move(scene);
   state_->renderer = std::make_unique<engine::SceneRenderer>(state_->backend, *state_->scene, environment);
 }
 

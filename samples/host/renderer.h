@@ -3,9 +3,11 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "engine/environment.h"
 #include "engine/image.h"
 #include "passes/registry.h"
 #include "rendergraph/capture.h"
@@ -16,7 +18,7 @@
 namespace engine {
 class Device;
 struct Scene;
-}
+}  // namespace engine
 
 namespace host {
 
@@ -26,7 +28,7 @@ struct Rendering {
   shared::FrameStatistics statistics{};
   rendergraph::Capture capture;  ///< Of the last execution.
   double gpuMs = 0.0;            ///< Device time of all executions.
-  double wallMs = 0.0;           ///< Host time of all executions, after warm-up of pipelines.
+  double wallMs = 0.0;           ///< Host time of all executions. The first render() also compiles shaders.
   double estimatedError = -1.0;  ///< RMS standard error of a progressive technique; negative when it has none.
 };
 
@@ -46,6 +48,8 @@ class Renderer {
  public:
   /// Loads the shot's scene. Throws engine::Error. Warnings of the loader go to `warnings`.
   Renderer(engine::Device& device, const Shot& shot, std::vector<std::string>& warnings);
+  /// A scene made in memory. Precondition: engine::findProblems(scene) is empty. `environment` lights lit shots.
+  Renderer(engine::Device& device, engine::Scene scene, const std::optional<engine::Environment>& environment);
   /// A renderer for images only (apply()).
   explicit Renderer(engine::Device& device);
   ~Renderer();

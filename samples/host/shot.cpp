@@ -140,6 +140,14 @@ void parseApertureRadius(const JsonNode& lensNode, engine::Lens& lens) {
   }
 }
 
+/// engine/lens's complaint with the value that the file gives: "is -2, must be …".
+[[noreturn]] void failLens(const JsonNode& lensNode, const engine::LensProblem& problem) {
+  const auto value = lensNode.find(problem.field);
+  if (!value) lensNode.failAt(problem.field, problem.reason, problem.remedy);
+  const char* joint = problem.reason.starts_with("must") ? ", " : ": ";
+  value->fail("is " + value->json().dump() + joint + problem.reason, problem.remedy);
+}
+
 engine::Lens parseLens(const JsonNode& node) {
   node.requireObject({"apertureRadius", "focalLengthMm", "fStop", "sensorWidthMm", "sensorHeightMm",
                       "focusDistance", "metersPerUnit", "fovModel", "bladeCount", "bladeRotation",
@@ -160,7 +168,7 @@ engine::Lens parseLens(const JsonNode& node) {
   lens.focusDistance = parseFocusDistance(node.at("focusDistance", "write metres, or \"infinity\""));
   parseApertureRadius(node, lens);
   const auto problems = engine::validate(lens);
-  if (!problems.empty()) node.failAt(problems.front().field, problems.front().reason, problems.front().remedy);
+  if (!problems.empty()) failLens(node, problems.front());
   return lens;
 }
 

@@ -195,7 +195,7 @@ std::string suggestion(const CLI::App& app, const std::string& word) {
 [[noreturn]] void failParse(const CLI::App& app, const CLI::ParseError& error) {
   const auto* sub = chosenSubcommand(app);
   const auto unknown = app.remaining(true);
-  if (!unknown.empty() && dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
+  if (!unknown.empty()) {
     const bool option = unknown.front().starts_with("-");
     const std::string kind = option ? "is no option" : sub == nullptr ? "is no subcommand" : "was not expected";
     failUsage(unknown.front(), kind, suggestion(app, unknown.front()));

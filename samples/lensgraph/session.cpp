@@ -24,7 +24,7 @@ void Session::report(const std::vector<std::string>& warnings) {
 }
 
 int Session::finish() {
-  const auto& messages = device_->validationMessages();
+  const auto& messages = device_->validationLog()->messages;
   for (const auto& message : messages) spdlog::error("validation: {}", message);
   return messages.empty() ? 0 : 1;
 }

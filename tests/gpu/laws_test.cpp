@@ -1,0 +1,96 @@
+// The four laws that every technique is held to.
+//   1. aperture 0 gives the pinhole picture, bit for bit
+//   2. a scene of one constant colour gives that colour everywhere, border included
+//   3. nothing non-finite comes out, whatever finite goes in; what is not finite does not spread
+//   4. the same inputs give the same bits, run to run
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <limits>
+
+#include "tests/support/gpu/gpu_test.h"
+#include "tests/support/gpu/test_scenes.h"
+
+namespace {
+
+using passes::ParameterSet;
+using support::render;
+
+/// Few enough views to be quick; the laws hold for any number.
+ParameterSet quick(const std::string& technique) {
+  ParameterSet parameters;
+  if (technique == "accumulation") parameters["lensSamples"] = int64_t{16};
+  if (technique == "pinhole") parameters["pixelSamples"] = int64_t{16};
+  return parameters;
+}
+
+std::vector<std::string> techniqueNames() {
+  std::vector<std::string> names;
+  for (const auto& technique : passes::techniques()) names.emplace_back(technique.name);
+  return names;
+}
+
+class Laws : public support::GpuTest, public testing::WithParamInterface<std::string> {};
+
+TEST_P(Laws, ApertureZeroIsThePinholePictureBitForBit) {
+  host::Renderer renderer(support::device(), support::layeredScene(), std::nullopt);
+  auto shot = support::smallShot(160, 90);
+  shot.lens.apertureRadius = 0.0;
+  ParameterSet sharp;
+  if (GetParam() != "two_pass_filter") sharp["pixelSamples"] = int64_t{16};
+  const auto pinhole = render(renderer, shot, "pinhole", sharp);
+  const auto picture = render(renderer, shot, GetParam(), quick(GetParam()));
+  EXPECT_TRUE(picture.color.samples == pinhole.color.samples);
+
+  shot.lens.apertureRadius = -1.0;
+  shot.lens.fStop = 0.0;
+  EXPECT_TRUE(render(renderer, shot, GetParam(), quick(GetParam())).color.samples == pinhole.color.samples);
+}
+
+TEST_P(Laws, ConstantColourStaysConstant) {
+  const glm::vec3 color(0.25f, 3.0f, 0.001f);
+  host::Renderer renderer(support::device(), support::constantScene(color), std::nullopt);
+  auto shot = support::smallShot(97, 61);
+  shot.background = {color.x, color.y, color.z};
+  shot.lens.apertureRadius = 0.05;
+  const auto picture = render(renderer, shot, GetParam(), quick(GetParam())).color;
+  double worst = 0.0;
+  for (std::size_t i = 0; i < picture.pixelCount(); ++i) {
+    for (int c = 0; c < 3; ++c) worst = std::max(worst, std::abs(double(picture.samples[i * 4 + c]) / double(color[c]) - 1.0));
+    EXPECT_EQ(picture.samples[i * 4 + 3], 1.0f);
+  }
+  EXPECT_LE(worst, 1e-3);
+}
+
+TEST_P(Laws, FiniteInFiniteOut) {
+  for (const float radiance : {0.0f, 1e-40f, 65504.0f, 1e30f, std::numeric_limits<float>::max()}) {
+    engine::Scene scene = support::layeredScene();
+    support::addFacingQuad(scene, 1.0, 0.2, 0.1, 0.05, 0.1, support::addMaterial(scene, {radiance, -radiance, radiance, 1.0f}));
+    host::Renderer renderer(support::device(), scene, std::nullopt);
+    const auto picture = render(renderer, support::smallShot(64, 36), GetParam(), quick(GetParam()));
+    EXPECT_EQ(support::nonFiniteCount(picture.color), 0u) << "radiance " << radiance;
+  }
+}
+
+TEST_P(Laws, NonFiniteInputDoesNotSpread) {
+  engine::Scene scene = support::layeredScene();
+  const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
+  support::addFacingQuad(scene, 1.0, 0.2, 0.1, 0.01, 0.01, support::addMaterial(scene, {nan, inf, 0.0f, 1.0f}));
+  host::Renderer renderer(support::device(), scene, std::nullopt);
+  const auto picture = render(renderer, support::smallShot(64, 36), GetParam(), quick(GetParam()));
+  EXPECT_EQ(support::nonFiniteCount(picture.color), 0u);
+  EXPECT_GT(picture.statistics.replacedTexels, 0u);
+}
+
+TEST_P(Laws, SameBitsRunToRun) {
+  host::Renderer renderer(support::device(), support::layeredScene(), std::nullopt);
+  host::Renderer another(support::device(), support::layeredScene(), std::nullopt);
+  const auto shot = support::smallShot(131, 77);
+  const auto first = render(renderer, shot, GetParam(), quick(GetParam())).color.samples;
+  EXPECT_TRUE(first == render(renderer, shot, GetParam(), quick(GetParam())).color.samples);
+  EXPECT_TRUE(first == render(another, shot, GetParam(), quick(GetParam())).color.samples);
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, Laws, testing::ValuesIn(techniqueNames()), [](const auto& info) { return info.param; });
+
+}  // namespace
