@@ -261,7 +261,8 @@ struct Fields {
     d = modify ? second.modify(d, Usage::storage) : second.write(d, Usage::storage);
     Pass raster = graph.addPass("raster", PassKind::raster);
     ImageDesc target{.format = VK_FORMAT_R8G8B8A8_UNORM, .width = 16, .height = 16};
-    [[maybe_unused]] const Image e = raster.color(graph.createImage("e", target), {.load = load, .clear = {{clear, 0, 0, 0}}});
+    [[maybe_unused]] const Image e =
+        raster.color(graph.createImage("e", target), {.load = load, .clear = {{clear, 0, 0, 0}}});
     Pass stores = graph.addPass("stores", PassKind::raster);
     stores.renderArea(area, areaLayers);
     if (exported) graph.exportImage(a, after);
