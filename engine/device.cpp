@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cstring>
 
+#include "engine/error.h"
 
 namespace engine {
 namespace {
@@ -32,6 +33,7 @@ struct NeededFeature {
 const NeededFeature kNeeded[] = {
     {"dynamicRendering", [](Features& f) -> VkBool32& { return f.v13.dynamicRendering; }},
     {"synchronization2", [](Features& f) -> VkBool32& { return f.v13.synchronization2; }},
+    // SPIR-V 1.6, which glslang writes for Vulkan 1.3, gives workgroup sizes as LocalSizeId.
     {"maintenance4", [](Features& f) -> VkBool32& { return f.v13.maintenance4; }},
     {"timelineSemaphore", [](Features& f) -> VkBool32& { return f.v12.timelineSemaphore; }},
     {"hostQueryReset", [](Features& f) -> VkBool32& { return f.v12.hostQueryReset; }},
@@ -157,7 +159,10 @@ void Device::choose(const std::string& select) {
   if (physical_ != VK_NULL_HANDLE) return;
   if (devices.empty()) throwDeviceError("no Vulkan device found", "install the package mesa-vulkan-drivers");
   if (!refused.empty()) throwDeviceError("no usable Vulkan device: " + refused, "update the driver, or use another device");
-  throwDeviceError("no Vulkan device matches '" + select + "'", "there are " + names);
+  throw Error({.file = {},  // bad input, not a failure: the name is the user's
+               .field = "device",
+               .reason = "none matches '" + select + "'",
+               .remedy = "choose by index or by part of the name: " + names});
 }
 
 void Device::createDevice() {

@@ -11,6 +11,7 @@
 #include "spirv/two_pass_filter/horizontal_comp.h"
 #include "spirv/two_pass_filter/prepare_comp.h"
 #include "spirv/two_pass_filter/reach_comp.h"
+#include "spirv/two_pass_filter/tiles_comp.h"
 #include "spirv/two_pass_filter/vertical_comp.h"
 
 namespace passes::two_pass_filter {
@@ -27,6 +28,7 @@ using rendergraph::PassKind;
 using rendergraph::Usage;
 
 const ComputeProgram kPrepare{"two_pass_filter.prepare", two_pass_filter_prepare_comp};
+const ComputeProgram kTiles{"two_pass_filter.tiles", two_pass_filter_tiles_comp};
 const ComputeProgram kReach{"two_pass_filter.reach", two_pass_filter_reach_comp};
 const ComputeProgram kVertical{"two_pass_filter.vertical", two_pass_filter_vertical_comp};
 const ComputeProgram kHorizontal{"two_pass_filter.horizontal", two_pass_filter_horizontal_comp};
@@ -54,7 +56,7 @@ Frame frameOf(const DofInputs& inputs, const Parameters& parameters) {
               .constants = {}};
   auto& constants = frame.constants;
   constants.lens = inputs.lens;
-  constants.maxRadius = std::min(parameters.maxRadius, inputs.lens.maxCocRadius);
+  constants.lens.maxCocRadius = std::min(parameters.maxRadius, inputs.lens.maxCocRadius);
   constants.minRadius = parameters.minRadius;
   constants.leakage = parameters.leakage;
   constants.size = {static_cast<int32_t>(inputs.extent.width), static_cast<int32_t>(inputs.extent.height)};
@@ -85,14 +87,8 @@ Buffer declareStatistics(Graph& graph) {
   return statistics;
 }
 
-struct Prepared {
-  Image texels;
-  Buffer tileRadii;
-};
-
-Prepared declarePrepare(Graph& graph, const DofInputs& inputs, const Frame& frame, Buffer& statistics) {
-  Prepared out{graph.createImage("two_pass_filter.prepared", frame.image()),
-               graph.createBuffer("two_pass_filter.tile_radii", {.size = frame.tileBytes(sizeof(float))})};
+Image declarePrepare(Graph& graph, const DofInputs& inputs, const Frame& frame, Buffer& statistics) {
+  Image prepared = graph.createImage("two_pass_filter.prepared", frame.image());
   // A view of a depth-stencil image that is sampled must name one aspect.
   rendergraph::Subresources depthRange = rendergraph::mip(0);
   depthRange.aspects = rendergraph::aspectsOf(graph.desc(inputs.depth).format) &
@@ -100,20 +96,37 @@ Prepared declarePrepare(Graph& graph, const DofInputs& inputs, const Frame& fram
   Pass pass = graph.addPass(kPrepare.name, PassKind::compute);
   pass.sample(inputs.color, rendergraph::mip(0));
   pass.sample(inputs.depth, depthRange);
-  out.texels = pass.write(out.texels, Usage::storage);
-  out.tileRadii = pass.write(out.tileRadii, Usage::storage);
+  prepared = pass.write(prepared, Usage::storage);
   statistics = pass.modify(statistics, Usage::storage);
   pass.record([=, color = inputs.color, depth = inputs.depth](PassContext& context) {
     const rendergraph::SamplerDesc nearest{.filter = VK_FILTER_NEAREST};
-    const std::array<Binding, 5> bindings = {
+    const std::array<Binding, 4> bindings = {
         rendergraph::sampled(color, nearest, rendergraph::mip(0)), rendergraph::sampled(depth, nearest, depthRange),
-        rendergraph::storage(out.texels), rendergraph::storage(out.tileRadii), rendergraph::storage(statistics)};
+        rendergraph::storage(prepared), rendergraph::storage(statistics)};
     context.dispatch({.program = kPrepare,
                       .bindings = bindings,
                       .pushConstants = rendergraph::bytesOf(frame.constants),
                       .groups = frame.tiles});
   });
-  return out;
+  return prepared;
+}
+
+Buffer declareTiles(Graph& graph, const Frame& frame, Image prepared, Buffer& statistics) {
+  constexpr uint32_t kGroup = 8;  // tiles; as in tiles.comp
+  Buffer tileRadii = graph.createBuffer("two_pass_filter.tile_radii", {.size = frame.tileBytes(sizeof(float))});
+  Pass pass = graph.addPass(kTiles.name, PassKind::compute);
+  pass.read(prepared, Usage::storage);
+  tileRadii = pass.write(tileRadii, Usage::storage);
+  statistics = pass.modify(statistics, Usage::storage);
+  pass.record([=](PassContext& context) {
+    const std::array<Binding, 3> bindings = {rendergraph::storage(prepared), rendergraph::storage(tileRadii),
+                                             rendergraph::storage(statistics)};
+    context.dispatch({.program = kTiles,
+                      .bindings = bindings,
+                      .pushConstants = rendergraph::bytesOf(frame.constants),
+                      .groups = rendergraph::groupsFor({frame.tiles.x, frame.tiles.y}, kGroup)});
+  });
+  return tileRadii;
 }
 
 Buffer declareReach(Graph& graph, const Frame& frame, Buffer tileRadii) {
@@ -189,10 +202,11 @@ DofOutputs declare(Graph& graph, const DofInputs& inputs, const Parameters& para
 
   const Frame frame = frameOf(inputs, parameters);
   outputs.statistics = declareStatistics(graph);
-  const Prepared prepared = declarePrepare(graph, inputs, frame, outputs.statistics);
-  const Buffer tileTaps = declareReach(graph, frame, prepared.tileRadii);
+  const Image prepared = declarePrepare(graph, inputs, frame, outputs.statistics);
+  const Buffer tileRadii = declareTiles(graph, frame, prepared, outputs.statistics);
+  const Buffer tileTaps = declareReach(graph, frame, tileRadii);
   const Image columns =
-      declareFilter(graph, frame, kVertical, prepared.texels, tileTaps, "two_pass_filter.columns");
+      declareFilter(graph, frame, kVertical, prepared, tileTaps, "two_pass_filter.columns");
   outputs.color = declareFilter(graph, frame, kHorizontal, columns, tileTaps, "two_pass_filter.color");
   return outputs;
 }

@@ -71,8 +71,8 @@ TEST(TwoPassFilter, DeclaresItsNodes) {
   Frame frame;
   const auto outputs = frame.declare();
   EXPECT_THAT(frame.declaredPasses(),
-              ElementsAre("two_pass_filter.clear_statistics", "two_pass_filter.prepare", "two_pass_filter.reach",
-                          "two_pass_filter.vertical", "two_pass_filter.horizontal"));
+              ElementsAre("two_pass_filter.clear_statistics", "two_pass_filter.prepare", "two_pass_filter.tiles",
+                          "two_pass_filter.reach", "two_pass_filter.vertical", "two_pass_filter.horizontal"));
   const auto& desc = frame.graph.desc(outputs.color);
   EXPECT_EQ(desc.format, VK_FORMAT_R32G32B32A32_SFLOAT);
   EXPECT_EQ(desc.width, 640u);
@@ -95,7 +95,7 @@ TEST(TwoPassFilter, CompilesForEveryDepthFormatAndSize) {
       Frame frame(extent, format);
       const auto outputs = frame.declare();
       frame.graph.exportImage(outputs.color, kShown);
-      EXPECT_EQ(frame.plan().passes.size(), 5u);
+      EXPECT_EQ(frame.plan().passes.size(), 6u);
     }
   }
 }
