@@ -1,8 +1,8 @@
 // A physical lens to the constants of shaders/shared/lens.h. Formulas: Lee 2009 eqs. 1 and 3.
 //
-// Units. Every length of a Lens is in metres (or millimetres where named so), whatever the scene's unit. View space is
-// in metres too: who draws the scene scales it by metersPerUnit. A depth buffer holds near/depth, a ratio, so a host
-// that draws in scene units has only its near plane to convert: metersFromSceneUnits().
+// Units. Every length of a Lens is in metres (or millimetres where named so), whatever the scene's unit. View
+// space is in metres too: who draws the scene scales it by metersPerUnit. A depth buffer holds near/depth, a
+// ratio, so a host that draws in scene units has only its near plane to convert: metersFromSceneUnits().
 #include "engine/lens.h"
 
 #include <algorithm>
@@ -13,17 +13,21 @@ namespace {
 
 /// No limit of the blur radius, px. Far above any picture, and its square is still finite in double.
 constexpr float kNoCocLimit = 1e30f;
-/// px·m. Above it K·V could overflow float for the nearest depths (V ≤ 1e5/m) with room for sums; no picture can show
-/// the difference, since every blur is wider than it by many orders.
+/// px·m. Above it K·V could overflow float for the nearest depths (V ≤ 1e5/m) with room for sums; no picture
+/// can show the difference, since every blur is wider than it by many orders.
 constexpr double kMaxCocScale = 1e25;
 /// 1/m. Focus nearer than this would overflow K·V_f; nothing can be drawn there.
 constexpr double kMaxFocusVergence = 1e9;
 constexpr double kPi = 3.14159265358979323846;
 
-double focalLength(const Lens& lens) { return lens.focalLengthMm * 1e-3; }
+double focalLength(const Lens& lens) {
+  return lens.focalLengthMm * 1e-3;
+}
 
 /// Exactly 0 at infinity.
-double focusVergence(const Lens& lens) { return std::min(1.0 / lens.focusDistance, kMaxFocusVergence); }
+double focusVergence(const Lens& lens) {
+  return std::min(1.0 / lens.focusDistance, kMaxFocusVergence);
+}
 
 /// Collects problems; one call a rule, so that the rules read as a table.
 struct Rules {
@@ -58,12 +62,15 @@ void checkApertureShape(const Lens& lens, Rules& rules) {
 std::vector<LensProblem> validate(const Lens& lens) {
   Rules rules;
   rules.positive(lens.focalLengthMm, "focalLengthMm", "give the focal length in millimetres, 50 for example");
-  rules.require(std::isfinite(lens.fStop) && lens.fStop >= 0.0, "fStop", "must be zero or a positive, finite number",
+  rules.require(std::isfinite(lens.fStop) && lens.fStop >= 0.0, "fStop",
+                "must be zero or a positive, finite number",
                 "give the f-number, 2.8 for example; 0 turns depth of field off");
   rules.require(std::isfinite(lens.apertureRadius), "apertureRadius", "is not a finite number",
                 "give the lens radius in metres, or leave it out and give focalLengthMm and fStop");
-  rules.positive(lens.sensorWidthMm, "sensorWidthMm", "give the sensor's width in millimetres, 36 for example");
-  rules.positive(lens.sensorHeightMm, "sensorHeightMm", "give the sensor's height in millimetres, 24 for example");
+  rules.positive(lens.sensorWidthMm, "sensorWidthMm",
+                 "give the sensor's width in millimetres, 36 for example");
+  rules.positive(lens.sensorHeightMm, "sensorHeightMm",
+                 "give the sensor's height in millimetres, 24 for example");
   rules.require(lens.focusDistance > 0.0, "focusDistance", "must be greater than zero",
                 "give metres along the optical axis, or infinity");
   rules.positive(lens.metersPerUnit, "metersPerUnit", "give metres per scene unit, 0.01 for centimetres");
@@ -83,7 +90,9 @@ double apertureRadius(const Lens& lens) {
   return lens.fStop == 0.0 ? 0.0 : focalLength(lens) / (2.0 * lens.fStop);
 }
 
-double metersFromSceneUnits(const Lens& lens, double units) { return units * lens.metersPerUnit; }
+double metersFromSceneUnits(const Lens& lens, double units) {
+  return units * lens.metersPerUnit;
+}
 
 double pixelsPerTangent(const Lens& lens, double fovyRadians, int imageHeight) {
   if (lens.fovModel == FovModel::pinhole) return 0.5 * imageHeight / std::tan(0.5 * fovyRadians);
@@ -99,8 +108,9 @@ shared::LensConstants lensConstants(const Lens& lens, double fovyRadians, int im
       lens.maxCocRadius > 0.0 ? static_cast<float>(lens.maxCocRadius * imageHeight) : kNoCocLimit;
   constants.vergenceScale = static_cast<float>(1.0 / nearPlane);
   constants.vergenceOffset = 0.0f;
-  // V_f carries the rounding error of 1/near, so that it cancels in V_f - V: three roundings instead of four stand
-  // between the depth buffer and a CoC near focus, and the error stays below 2·K·V_f·2^-23 px (1.52 of it).
+  // V_f carries the rounding error of 1/near, so that it cancels in V_f - V: three roundings instead of four
+  // stand between the depth buffer and a CoC near focus, and the error stays below 2·K·V_f·2^-23 px (1.52 of
+  // it).
   const double scaleError = static_cast<double>(constants.vergenceScale) * nearPlane;
   constants.focusVergence = static_cast<float>(focusVergence(lens) * scaleError);
   return constants;

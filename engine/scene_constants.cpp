@@ -50,7 +50,6 @@ void fillViewpoint(shared::SceneConstants& constants, const SceneViewpoint& view
   const glm::dmat3 viewFromWorld(viewpoint.viewFromWorld);
   // The inverse of a rotation is its transpose: row i of world-from-view is column i of view-from-world.
   for (int i = 0; i < 3; ++i) constants.worldFromViewRows[i] = toShared(viewFromWorld[i], 0.0);
-  constants.lit = viewpoint.lit ? 1u : 0u;
 }
 
 }  // namespace engine

@@ -10,7 +10,7 @@ namespace engine {
 /// Matrices are multiplied in double and rounded once.
 shared::DrawConstants drawConstantsOf(const SceneViewpoint& viewpoint, const SceneDrawItem& item);
 shared::LightConstants lightConstantsOf(const SceneViewpoint& viewpoint, const Light& light);
-/// Fills the viewpoint's part: rotation and mode.
+/// Fills the viewpoint's part: its rotation.
 void fillViewpoint(shared::SceneConstants& constants, const SceneViewpoint& viewpoint);
 
 }  // namespace engine

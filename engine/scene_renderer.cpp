@@ -66,6 +66,7 @@ GpuImage environmentImageOf(const Device& device, const std::optional<Environmen
 struct SceneRenderer::EmitPipeline {
   SceneEmit emit;
   bool masked;
+  bool lit;
   std::vector<VkFormat> colorFormats;
   VkFormat depthFormat;
   VkDescriptorSetLayout emitSetLayout = VK_NULL_HANDLE;  ///< Null when the emit binds nothing.
@@ -141,6 +142,7 @@ void SceneRenderer::setViewpoint(const SceneViewpoint& viewpoint) {
   }
   auto* lights = static_cast<shared::LightConstants*>(lightConstants_.block.address);
   for (std::size_t i = 0; i < lights_.size(); ++i) lights[i] = lightConstantsOf(viewpoint, lights_[i]);
+  lit_ = viewpoint.lit;
   fillViewpoint(constants_, viewpoint);
   constants_.lightCount = static_cast<uint32_t>(lights_.size());
   std::memcpy(sceneConstants_.block.address, &constants_, sizeof constants_);
@@ -148,7 +150,8 @@ void SceneRenderer::setViewpoint(const SceneViewpoint& viewpoint) {
 
 SceneRenderer::EmitPipeline& SceneRenderer::pipelineFor(const SceneDrawRequest& request, bool masked) {
   for (const auto& known : pipelines_) {
-    if (known->emit == request.emit && known->masked == masked && known->depthFormat == request.depthFormat &&
+    if (known->emit == request.emit && known->masked == masked && known->lit == lit_ &&
+        known->depthFormat == request.depthFormat &&
         std::ranges::equal(known->colorFormats, request.colorFormats)) {
       return *known;
     }
@@ -156,6 +159,7 @@ SceneRenderer::EmitPipeline& SceneRenderer::pipelineFor(const SceneDrawRequest& 
   auto made = std::make_unique<EmitPipeline>();
   made->emit = request.emit;
   made->masked = masked;
+  made->lit = lit_;
   made->colorFormats.assign(request.colorFormats.begin(), request.colorFormats.end());
   made->depthFormat = request.depthFormat;
   std::vector<VkDescriptorSetLayout> sets = {sceneSetLayout_, gpu_.materialSetLayout()};
@@ -175,9 +179,9 @@ SceneRenderer::EmitPipeline& SceneRenderer::pipelineFor(const SceneDrawRequest& 
   check(device_.vk().vkCreatePipelineLayout(device_.handle(), &layoutInfo, nullptr, &layout), "vkCreatePipelineLayout");
   made->layout = {device_.handle(), layout, device_.vk().vkDestroyPipelineLayout};
 
-  const uint32_t maskedWord = masked ? VK_TRUE : VK_FALSE;
-  const VkSpecializationMapEntry entry{0, 0, sizeof maskedWord};
-  const VkSpecializationInfo specialization{1, &entry, sizeof maskedWord, &maskedWord};
+  const std::array<uint32_t, 2> words = {masked ? VK_TRUE : VK_FALSE, lit_ ? VK_TRUE : VK_FALSE};
+  const std::array<VkSpecializationMapEntry, 2> entries = {{{0, 0, sizeof(uint32_t)}, {1, 4, sizeof(uint32_t)}}};
+  const VkSpecializationInfo specialization{2, entries.data(), sizeof words, words.data()};
   RasterPipelineDesc desc;
   desc.name = request.emit == SceneEmit::transparentList ? "scene.transparent_list" : "scene.opaque_radiance";
   desc.vertex = scene_scene_vert;

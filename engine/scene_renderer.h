@@ -62,6 +62,7 @@ class SceneRenderer {
   const Device& device_;
   SceneGpu gpu_;
   std::vector<Light> lights_;
+  bool lit_ = false;
   GpuBuffer drawConstants_, lightConstants_, sceneConstants_;  ///< Host-visible; written by setViewpoint().
   GpuImage environmentImage_;
   shared::SceneConstants constants_{};  ///< The environment's part is filled once.

@@ -8,11 +8,12 @@ namespace passes {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-/// Blades straighter than this are straight: the arc is then nearer than 5e-5 lens radii to its chord, and larger radii
-/// lose digits in the sector's area.
+/// Blades straighter than this are straight: the arc is then nearer than 5e-5 lens radii to its chord, and
+/// larger radii lose digits in the sector's area.
 constexpr double kMinCurvature = 1e-4;
 
-// ---- Patterns -------------------------------------------------------------------------------------------------------
+// ---- Patterns
+// -------------------------------------------------------------------------------------------------------
 
 /// One dimension of Sobol's sequence: a primitive polynomial and its first direction numbers (Joe and Kuo,
 /// new-joe-kuo-6, dimensions 2 to 4).
@@ -48,9 +49,11 @@ constexpr SobolMatrix vanDerCorputMatrix() {
 }
 
 constexpr std::array<SobolMatrix, 4> kSobol = {vanDerCorputMatrix(), sobolMatrix(kSobolDimensions[0]),
-                                               sobolMatrix(kSobolDimensions[1]), sobolMatrix(kSobolDimensions[2])};
+                                               sobolMatrix(kSobolDimensions[1]),
+                                               sobolMatrix(kSobolDimensions[2])};
 
-/// Scramble seeds of the four dimensions: fixed, so that a picture can be made again. Any odd-looking numbers do.
+/// Scramble seeds of the four dimensions: fixed, so that a picture can be made again. Any odd-looking numbers
+/// do.
 constexpr std::array<uint32_t, 4> kScrambleSeeds = {0x9c1d3a75u, 0x2f6be4d1u, 0xe58a0c93u, 0x74d2915fu};
 
 constexpr uint32_t reverseBits(uint32_t x) {
@@ -61,8 +64,8 @@ constexpr uint32_t reverseBits(uint32_t x) {
   return (x >> 16) | (x << 16);
 }
 
-/// Nested uniform scrambling by a hash in which every bit depends only on itself and the bits above it (Laine and
-/// Karras 2011; Vegdahl's constants). Keeps the stratification of the sequence.
+/// Nested uniform scrambling by a hash in which every bit depends only on itself and the bits above it (Laine
+/// and Karras 2011; Vegdahl's constants). Keeps the stratification of the sequence.
 constexpr uint32_t owenScramble(uint32_t x, uint32_t seed) {
   x = reverseBits(x);
   x ^= x * 0x3d20adeau;
@@ -90,9 +93,9 @@ double radicalInverse(uint32_t index, uint32_t base) {
   return std::min(value, 1.0 - 0x1p-53);
 }
 
-/// Steps of the recurrence as 64-bit fixed point, exact at any index. Lens: 1/ρ and 1/ρ², ρ the plastic number (Roberts
-/// 2018, R2). Pixel: √7 and √11 without their whole parts; of the roots and of Roberts' own four-dimensional steps these
-/// tell least about the lens point, and the latter double the error of the lens.
+/// Steps of the recurrence as 64-bit fixed point, exact at any index. Lens: 1/ρ and 1/ρ², ρ the plastic
+/// number (Roberts 2018, R2). Pixel: √7 and √11 without their whole parts; of the roots and of Roberts' own
+/// four-dimensional steps these tell least about the lens point, and the latter double the error of the lens.
 constexpr std::array<uint64_t, 4> kRecurrenceSteps = {
     static_cast<uint64_t>(0.75487766624669276 * 0x1p64), static_cast<uint64_t>(0.56984029099805327 * 0x1p64),
     static_cast<uint64_t>(0.64575131106459059 * 0x1p64), static_cast<uint64_t>(0.31662479035539985 * 0x1p64)};
@@ -102,7 +105,8 @@ double recurrence(uint32_t index, std::size_t dimension) {
   return static_cast<double>(fixed >> 11) * 0x1p-53;
 }
 
-// ---- Aperture -------------------------------------------------------------------------------------------------------
+// ---- Aperture
+// -------------------------------------------------------------------------------------------------------
 
 struct Polar {
   double radius;  ///< 0…1; its square is uniform.
@@ -113,8 +117,8 @@ struct Polar {
 Polar concentric(double u0, double u1) {
   const double a = 2.0 * u0 - 1.0, b = 2.0 * u1 - 1.0;
   if (a == 0.0 && b == 0.0) return {0.0, 0.0};
-  Polar polar = std::abs(a) > std::abs(b) ? Polar{a, kPi / 4.0 * (b / a)}
-                                          : Polar{b, kPi / 2.0 - kPi / 4.0 * (a / b)};
+  Polar polar =
+      std::abs(a) > std::abs(b) ? Polar{a, kPi / 4.0 * (b / a)} : Polar{b, kPi / 2.0 - kPi / 4.0 * (a / b)};
   if (polar.radius < 0.0) polar = {-polar.radius, polar.angle + kPi};
   return polar;
 }
@@ -123,8 +127,8 @@ struct Point {
   double x, y;
 };
 
-/// Point of one blade's edge, the blade's axis being x: the one whose sector from the axis has share `t` (-1…1) of the
-/// area of half the wedge. So equal steps of t sweep equal areas, whatever the edge's form.
+/// Point of one blade's edge, the blade's axis being x: the one whose sector from the axis has share `t`
+/// (-1…1) of the area of half the wedge. So equal steps of t sweep equal areas, whatever the edge's form.
 Point bladeEdge(double t, double halfWedge, double curvature) {
   const double a = std::cos(halfWedge), s = std::sin(halfWedge);
   if (curvature < kMinCurvature) return {a, s * t};
@@ -160,9 +164,15 @@ std::array<double, 4> patternPoint(LensPattern pattern, uint32_t index) {
   std::array<double, 4> point{};
   for (std::size_t d = 0; d < point.size(); ++d) {
     switch (pattern) {
-      case LensPattern::sobol: point[d] = sobol(index, d); break;
-      case LensPattern::halton: point[d] = radicalInverse(index, haltonBases[d]); break;
-      case LensPattern::r2: point[d] = recurrence(index, d); break;
+      case LensPattern::sobol:
+        point[d] = sobol(index, d);
+        break;
+      case LensPattern::halton:
+        point[d] = radicalInverse(index, haltonBases[d]);
+        break;
+      case LensPattern::r2:
+        point[d] = recurrence(index, d);
+        break;
     }
   }
   return point;
@@ -171,18 +181,21 @@ std::array<double, 4> patternPoint(LensPattern pattern, uint32_t index) {
 shared::vec2 aperturePoint(const shared::ApertureShape& shape, double u0, double u1) {
   Polar polar = concentric(u0, u1);
   if (shape.gaussian != 0u) {
-    // 1 - ρ² is uniform; its logarithm makes the radius that of a normal distribution. The bound keeps it finite.
+    // 1 - ρ² is uniform; its logarithm makes the radius that of a normal distribution. The bound keeps it
+    // finite.
     const double rest = std::max(1.0 - polar.radius * polar.radius, 0x1p-53);
     polar.radius = std::sqrt(-2.0 * std::log(rest));
   }
   const bool polygon = shape.bladeCount >= 3 && shape.gaussian == 0u;
-  const Point point = polygon ? polygonPoint(shape, polar)
-                              : Point{polar.radius * std::cos(polar.angle), polar.radius * std::sin(polar.angle)};
+  const Point point = polygon
+                          ? polygonPoint(shape, polar)
+                          : Point{polar.radius * std::cos(polar.angle), polar.radius * std::sin(polar.angle)};
   const double stretch = std::sqrt(static_cast<double>(shape.anamorphicRatio));
   return {static_cast<float>(point.x * stretch), static_cast<float>(-point.y / stretch)};
 }
 
-LensSample lensSample(const shared::ApertureShape& shape, LensPattern pattern, uint32_t index, bool pixelJitter) {
+LensSample lensSample(const shared::ApertureShape& shape, LensPattern pattern, uint32_t index,
+                      bool pixelJitter) {
   // A float below 0.5; u - 0.5 may round up to 0.5, which is the neighbour's pixel.
   const float last = std::nextafter(0.5f, 0.0f);
   const auto u = patternPoint(pattern, index);

@@ -10,7 +10,9 @@
 namespace passes {
 namespace {
 
-std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"; }
+std::string quoted(std::string_view text) {
+  return "'" + std::string(text) + "'";
+}
 
 std::string joined(std::span<const std::string_view> names) {
   std::string text;
@@ -34,21 +36,28 @@ std::string rangeText(const ParameterInfo& info) {
 /// What a value of this parameter looks like.
 std::string expectation(const ParameterInfo& info) {
   switch (info.type) {
-    case ParameterType::toggle: return "use true or false";
-    case ParameterType::integer: return "use a whole number from " + rangeText(info);
-    case ParameterType::number: return "use a number from " + rangeText(info);
-    case ParameterType::choice: return "use one of: " + joined(info.choices);
+    case ParameterType::toggle:
+      return "use true or false";
+    case ParameterType::integer:
+      return "use a whole number from " + rangeText(info);
+    case ParameterType::number:
+      return "use a number from " + rangeText(info);
+    case ParameterType::choice:
+      return "use one of: " + joined(info.choices);
   }
   return {};
 }
 
 bool hasType(const ParameterInfo& info, const ParameterValue& value) {
   switch (info.type) {
-    case ParameterType::toggle: return std::holds_alternative<bool>(value);
-    case ParameterType::integer: return std::holds_alternative<int64_t>(value);
+    case ParameterType::toggle:
+      return std::holds_alternative<bool>(value);
+    case ParameterType::integer:
+      return std::holds_alternative<int64_t>(value);
     case ParameterType::number:
       return std::holds_alternative<double>(value) || std::holds_alternative<int64_t>(value);
-    case ParameterType::choice: return std::holds_alternative<std::string>(value);
+    case ParameterType::choice:
+      return std::holds_alternative<std::string>(value);
   }
   return false;
 }
@@ -91,8 +100,8 @@ char lowerCase(char letter) {
   return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
 }
 
-/// Edits (insert, delete, replace, swap of neighbours) that turn one name into the other, whatever the case of the
-/// letters: optimal string alignment distance.
+/// Edits (insert, delete, replace, swap of neighbours) that turn one name into the other, whatever the case
+/// of the letters: optimal string alignment distance.
 std::size_t editDistance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> beforeLast(b.size() + 1), last(b.size() + 1), current(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
@@ -116,7 +125,8 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
 std::vector<Problem> check(const ParameterSet& set, std::span<const ParameterInfo> known) {
   std::vector<Problem> problems;
   for (const auto& [name, value] : set) {
-    const auto found = std::find_if(known.begin(), known.end(), [&](const auto& info) { return info.name == name; });
+    const auto found =
+        std::find_if(known.begin(), known.end(), [&](const auto& info) { return info.name == name; });
     if (found != known.end()) {
       checkOne(*found, value, problems);
       continue;
@@ -184,7 +194,8 @@ std::string toString(const ParameterValue& value) {
   if (const auto* integer = std::get_if<int64_t>(&value)) return std::to_string(*integer);
   if (const auto* text = std::get_if<std::string>(&value)) return *text;
   std::array<char, 32> digits{};
-  const auto [end, error] = std::to_chars(digits.data(), digits.data() + digits.size(), std::get<double>(value));
+  const auto [end, error] =
+      std::to_chars(digits.data(), digits.data() + digits.size(), std::get<double>(value));
   return error == std::errc{} ? std::string(digits.data(), end) : std::string("?");
 }
 

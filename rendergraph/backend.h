@@ -94,7 +94,8 @@ class Backend : public DeviceFacts {
                                  const VkBufferImageCopy& region) = 0;
   virtual void copyBuffer(VkCommandBuffer commands, VkBuffer from, VkBuffer to, VkDeviceSize bytes) = 0;
   virtual void fillBuffer(VkCommandBuffer commands, VkBuffer to, uint32_t word) = 0;
-  /// The range is in layout TRANSFER_DST_OPTIMAL, as is the destination of copies; their source in TRANSFER_SRC_OPTIMAL.
+  /// The range is in layout TRANSFER_DST_OPTIMAL, as is the destination of copies; their source is in
+  /// TRANSFER_SRC_OPTIMAL.
   virtual void clearImage(VkCommandBuffer commands, VkImage image, const VkClearColorValue& value,
                           const VkImageSubresourceRange& range) = 0;
   virtual void clearDepthImage(VkCommandBuffer commands, VkImage image, float depth,

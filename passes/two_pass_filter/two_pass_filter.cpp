@@ -11,6 +11,7 @@
 #include "spirv/two_pass_filter/horizontal_comp.h"
 #include "spirv/two_pass_filter/prepare_comp.h"
 #include "spirv/two_pass_filter/reach_comp.h"
+#include "spirv/two_pass_filter/tiles_comp.h"
 #include "spirv/two_pass_filter/vertical_comp.h"
 
 namespace passes::two_pass_filter {
@@ -27,11 +28,13 @@ using rendergraph::PassKind;
 using rendergraph::Usage;
 
 const ComputeProgram kPrepare{"two_pass_filter.prepare", two_pass_filter_prepare_comp};
+const ComputeProgram kTiles{"two_pass_filter.tiles", two_pass_filter_tiles_comp};
 const ComputeProgram kReach{"two_pass_filter.reach", two_pass_filter_reach_comp};
 const ComputeProgram kVertical{"two_pass_filter.vertical", two_pass_filter_vertical_comp};
 const ComputeProgram kHorizontal{"two_pass_filter.horizontal", two_pass_filter_horizontal_comp};
 
-/// rgb and CoC of one pixel in one load. Half floats would be slower here and round the CoC to 1/1024 of itself.
+/// rgb and CoC of one pixel in one load. Half floats would be slower here and round the CoC to 1/1024 of
+/// itself.
 constexpr VkFormat kFilterFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
 
 /// What every node of one declaration needs.
@@ -54,7 +57,7 @@ Frame frameOf(const DofInputs& inputs, const Parameters& parameters) {
               .constants = {}};
   auto& constants = frame.constants;
   constants.lens = inputs.lens;
-  constants.maxRadius = std::min(parameters.maxRadius, inputs.lens.maxCocRadius);
+  constants.lens.maxCocRadius = std::min(parameters.maxRadius, inputs.lens.maxCocRadius);
   constants.minRadius = parameters.minRadius;
   constants.leakage = parameters.leakage;
   constants.size = {static_cast<int32_t>(inputs.extent.width), static_cast<int32_t>(inputs.extent.height)};
@@ -68,31 +71,27 @@ void requireSize(const Graph& graph, Image image, const char* name, VkExtent2D e
   const auto text = [](uint32_t width, uint32_t height) {
     return std::to_string(width) + "x" + std::to_string(height);
   };
-  throw rendergraph::GraphError({{.misuse = rendergraph::Misuse::sizeMismatch,
-                                  .pass = kPrepare.name,
-                                  .resource = name,
-                                  .reason = "the image is " + text(desc.width, desc.height) +
-                                            " px, DofInputs::extent says " + text(extent.width, extent.height),
-                                  .remedy = "give colour and depth at full resolution",
-                                  .where = std::source_location::current()}});
+  throw rendergraph::GraphError(
+      {{.misuse = rendergraph::Misuse::sizeMismatch,
+        .pass = kPrepare.name,
+        .resource = name,
+        .reason = "the image is " + text(desc.width, desc.height) + " px, DofInputs::extent says " +
+                  text(extent.width, extent.height),
+        .remedy = "give colour and depth at full resolution",
+        .where = std::source_location::current()}});
 }
 
 Buffer declareStatistics(Graph& graph) {
-  Buffer statistics = graph.createBuffer("two_pass_filter.statistics", {.size = sizeof(shared::FrameStatistics)});
+  Buffer statistics =
+      graph.createBuffer("two_pass_filter.statistics", {.size = sizeof(shared::FrameStatistics)});
   Pass pass = graph.addPass("two_pass_filter.clear_statistics", PassKind::transfer);
   statistics = pass.write(statistics, Usage::transferDestination);
   pass.record([statistics](PassContext& context) { context.fillBuffer(statistics, 0u); });
   return statistics;
 }
 
-struct Prepared {
-  Image texels;
-  Buffer tileRadii;
-};
-
-Prepared declarePrepare(Graph& graph, const DofInputs& inputs, const Frame& frame, Buffer& statistics) {
-  Prepared out{graph.createImage("two_pass_filter.prepared", frame.image()),
-               graph.createBuffer("two_pass_filter.tile_radii", {.size = frame.tileBytes(sizeof(float))})};
+Image declarePrepare(Graph& graph, const DofInputs& inputs, const Frame& frame, Buffer& statistics) {
+  Image prepared = graph.createImage("two_pass_filter.prepared", frame.image());
   // A view of a depth-stencil image that is sampled must name one aspect.
   rendergraph::Subresources depthRange = rendergraph::mip(0);
   depthRange.aspects = rendergraph::aspectsOf(graph.desc(inputs.depth).format) &
@@ -100,40 +99,61 @@ Prepared declarePrepare(Graph& graph, const DofInputs& inputs, const Frame& fram
   Pass pass = graph.addPass(kPrepare.name, PassKind::compute);
   pass.sample(inputs.color, rendergraph::mip(0));
   pass.sample(inputs.depth, depthRange);
-  out.texels = pass.write(out.texels, Usage::storage);
-  out.tileRadii = pass.write(out.tileRadii, Usage::storage);
+  prepared = pass.write(prepared, Usage::storage);
   statistics = pass.modify(statistics, Usage::storage);
   pass.record([=, color = inputs.color, depth = inputs.depth](PassContext& context) {
     const rendergraph::SamplerDesc nearest{.filter = VK_FILTER_NEAREST};
-    const std::array<Binding, 5> bindings = {
-        rendergraph::sampled(color, nearest, rendergraph::mip(0)), rendergraph::sampled(depth, nearest, depthRange),
-        rendergraph::storage(out.texels), rendergraph::storage(out.tileRadii), rendergraph::storage(statistics)};
+    const std::array<Binding, 4> bindings = {rendergraph::sampled(color, nearest, rendergraph::mip(0)),
+                                             rendergraph::sampled(depth, nearest, depthRange),
+                                             rendergraph::storage(prepared),
+                                             rendergraph::storage(statistics)};
     context.dispatch({.program = kPrepare,
                       .bindings = bindings,
                       .pushConstants = rendergraph::bytesOf(frame.constants),
                       .groups = frame.tiles});
   });
-  return out;
+  return prepared;
+}
+
+Buffer declareTiles(Graph& graph, const Frame& frame, Image prepared, Buffer& statistics) {
+  constexpr uint32_t kGroup = 8;  // tiles; as in tiles.comp
+  Buffer tileRadii =
+      graph.createBuffer("two_pass_filter.tile_radii", {.size = frame.tileBytes(sizeof(float))});
+  Pass pass = graph.addPass(kTiles.name, PassKind::compute);
+  pass.read(prepared, Usage::storage);
+  tileRadii = pass.write(tileRadii, Usage::storage);
+  statistics = pass.modify(statistics, Usage::storage);
+  pass.record([=](PassContext& context) {
+    const std::array<Binding, 3> bindings = {rendergraph::storage(prepared), rendergraph::storage(tileRadii),
+                                             rendergraph::storage(statistics)};
+    context.dispatch({.program = kTiles,
+                      .bindings = bindings,
+                      .pushConstants = rendergraph::bytesOf(frame.constants),
+                      .groups = rendergraph::groupsFor({frame.tiles.x, frame.tiles.y}, kGroup)});
+  });
+  return tileRadii;
 }
 
 Buffer declareReach(Graph& graph, const Frame& frame, Buffer tileRadii) {
-  Buffer tileTaps = graph.createBuffer("two_pass_filter.tile_taps", {.size = frame.tileBytes(sizeof(shared::uvec2))});
+  Buffer tileTaps =
+      graph.createBuffer("two_pass_filter.tile_taps", {.size = frame.tileBytes(sizeof(shared::uvec2))});
   Pass pass = graph.addPass(kReach.name, PassKind::compute);
   pass.read(tileRadii, Usage::storage);
   tileTaps = pass.write(tileTaps, Usage::storage);
   pass.record([=](PassContext& context) {
     const std::array<Binding, 2> bindings = {rendergraph::storage(tileRadii), rendergraph::storage(tileTaps)};
-    context.dispatch({.program = kReach,
-                      .bindings = bindings,
-                      .pushConstants = rendergraph::bytesOf(frame.constants),
-                      .groups = rendergraph::groupsFor({frame.tiles.x, frame.tiles.y}, shared::kTwoPassFilterTile)});
+    context.dispatch(
+        {.program = kReach,
+         .bindings = bindings,
+         .pushConstants = rendergraph::bytesOf(frame.constants),
+         .groups = rendergraph::groupsFor({frame.tiles.x, frame.tiles.y}, shared::kTwoPassFilterTile)});
   });
   return tileTaps;
 }
 
 /// One direction of the filter.
-Image declareFilter(Graph& graph, const Frame& frame, const ComputeProgram& program, Image source, Buffer tileTaps,
-                    const char* resultName) {
+Image declareFilter(Graph& graph, const Frame& frame, const ComputeProgram& program, Image source,
+                    Buffer tileTaps, const char* resultName) {
   Image result = graph.createImage(resultName, frame.image());
   Pass pass = graph.addPass(program.name, PassKind::compute);
   pass.read(source, Usage::storage);
@@ -154,18 +174,19 @@ Image declareFilter(Graph& graph, const Frame& frame, const ComputeProgram& prog
 
 std::span<const Field<Parameters>> fields() {
   static const std::array<Field<Parameters>, 3> all = {
-      number<&Parameters::maxRadius>(
-          "maxRadius", "px", 1.0, 1024.0,
-          "Blur radii are limited to it, and pixels that it limits are counted (clampedCoc). Costs nothing where blurs "
-          "are smaller; time grows with the radius that the picture has."),
-      number<&Parameters::minRadius>(
-          "minRadius", "px", 0.1, 2.0,
-          "Radius below which a blur no longer gets brighter. Smaller keeps what is in focus sharper against blur "
-          "that covers it; larger lets that blur show. No cost."),
-      number<&Parameters::leakage>(
-          "leakage", "1/px", 0.0, 16.0,
-          "How fast the background may spread over a pixel as that pixel's own blur radius grows: min(1, leakage * r). "
-          "0 stops all spreading behind the focal plane; large values let it onto edges near focus. No cost."),
+      number<&Parameters::maxRadius>("maxRadius", "px", 1.0, 1024.0,
+                                     "Blur radii are limited to it, and pixels that it limits are counted "
+                                     "(clampedCoc). Costs nothing where blurs "
+                                     "are smaller; time grows with the radius that the picture has."),
+      number<&Parameters::minRadius>("minRadius", "px", 0.1, 2.0,
+                                     "Radius below which a blur no longer gets brighter. Smaller keeps what "
+                                     "is in focus sharper against blur "
+                                     "that covers it; larger lets that blur show. No cost."),
+      number<&Parameters::leakage>("leakage", "1/px", 0.0, 16.0,
+                                   "How fast the background may spread over a pixel as that pixel's own blur "
+                                   "radius grows: min(1, leakage * r). "
+                                   "0 stops all spreading behind the focal plane; large values let it onto "
+                                   "edges near focus. No cost."),
   };
   return all;
 }
@@ -189,10 +210,10 @@ DofOutputs declare(Graph& graph, const DofInputs& inputs, const Parameters& para
 
   const Frame frame = frameOf(inputs, parameters);
   outputs.statistics = declareStatistics(graph);
-  const Prepared prepared = declarePrepare(graph, inputs, frame, outputs.statistics);
-  const Buffer tileTaps = declareReach(graph, frame, prepared.tileRadii);
-  const Image columns =
-      declareFilter(graph, frame, kVertical, prepared.texels, tileTaps, "two_pass_filter.columns");
+  const Image prepared = declarePrepare(graph, inputs, frame, outputs.statistics);
+  const Buffer tileRadii = declareTiles(graph, frame, prepared, outputs.statistics);
+  const Buffer tileTaps = declareReach(graph, frame, tileRadii);
+  const Image columns = declareFilter(graph, frame, kVertical, prepared, tileTaps, "two_pass_filter.columns");
   outputs.color = declareFilter(graph, frame, kHorizontal, columns, tileTaps, "two_pass_filter.color");
   return outputs;
 }

@@ -101,7 +101,14 @@ double rootMeanSquare(std::span<const std::byte> bytes) {
 
 /// What of a frame comes back to the host; default-made handles are not asked for.
 struct ReadBacks {
-  Buffer color, depth, standardError, statistics;
+  Buffer color, depth, standardError;
+  std::vector<Buffer> statistics;
+};
+
+/// What a frame's declaration gives the host: the technique's outputs, and the statistics of all its parts.
+struct FrameOutputs {
+  DofOutputs technique;
+  std::vector<Buffer> statistics;
 };
 
 void add(shared::FrameStatistics& total, const shared::FrameStatistics& frame) {
@@ -124,15 +131,15 @@ std::optional<engine::Environment> loadEnvironment(const Shot& shot) {
 struct Renderer::State {
   explicit State(engine::Device& usedDevice) : device(usedDevice), backend(usedDevice), executor(backend) {}
 
-  /// Declares one frame; returns the technique's outputs.
-  using DeclareFrame = std::function<DofOutputs(Graph&, uint32_t frame)>;
+  /// Declares one frame.
+  using DeclareFrame = std::function<FrameOutputs(Graph&, uint32_t frame)>;
 
   DofInputs sceneInputs(const Shot& shot);
   Rendering run(const passes::Technique& technique, const DofInputs& inputs, const RenderOptions& options,
                 const DeclareFrame& declareFrame);
-  ReadBacks declareReadBacks(Graph& graph, const DofOutputs& out, bool isLast, bool wantDepth);
-  DofOutputs declareTechnique(Graph& graph, DofInputs inputs, const passes::Technique& technique,
-                              const RenderOptions& options);
+  ReadBacks declareReadBacks(Graph& graph, const FrameOutputs& frame, bool isLast, bool wantDepth);
+  FrameOutputs declareTechnique(Graph& graph, DofInputs inputs, const passes::Technique& technique,
+                                const RenderOptions& options);
 
   engine::Device& device;
   engine::GraphBackend backend;
@@ -195,8 +202,8 @@ DofInputs Renderer::State::sceneInputs(const Shot& shot) {
   return inputs;
 }
 
-DofOutputs Renderer::State::declareTechnique(Graph& graph, DofInputs inputs, const passes::Technique& technique,
-                                             const RenderOptions& options) {
+FrameOutputs Renderer::State::declareTechnique(Graph& graph, DofInputs inputs, const passes::Technique& technique,
+                                               const RenderOptions& options) {
   // Without a scene (apply) the pictures are already in the inputs.
   DofOutputs view;
   const bool isImage = technique.input == passes::TechniqueInput::image;
@@ -209,16 +216,20 @@ DofOutputs Renderer::State::declareTechnique(Graph& graph, DofInputs inputs, con
   }
   const auto problems = technique.validate(options.parameters, inputs);
   if (!problems.empty()) throwProblem(problems.front(), technique.name);
-  DofOutputs out = technique.declare(graph, inputs, options.parameters);
-  if (!out.depth) out.depth = view.depth;
-  if (!out.statistics) out.statistics = view.statistics;
+  FrameOutputs out;
+  out.technique = technique.declare(graph, inputs, options.parameters);
+  if (!out.technique.depth) out.technique.depth = view.depth;
+  for (const Buffer& statistics : {view.statistics, out.technique.statistics}) {
+    if (statistics) out.statistics.push_back(statistics);
+  }
   return out;
 }
 
-ReadBacks Renderer::State::declareReadBacks(Graph& graph, const DofOutputs& out, bool isLast, bool wantDepth) {
+ReadBacks Renderer::State::declareReadBacks(Graph& graph, const FrameOutputs& frame, bool isLast, bool wantDepth) {
   ReadBacks back;
-  if (out.statistics) back.statistics = readBack(graph, out.statistics, "statistics");
+  for (const Buffer& buffer : frame.statistics) back.statistics.push_back(readBack(graph, buffer, "statistics"));
   if (!isLast) return back;
+  const DofOutputs& out = frame.technique;
   back.color = readBack(graph, out.color, "color");
   if (wantDepth && out.depth) back.depth = readBack(graph, out.depth, "depth");
   if (out.standardError) back.standardError = readBack(graph, out.standardError, "standard_error");
@@ -237,12 +248,12 @@ Rendering Renderer::State::run(const passes::Technique& technique, const DofInpu
     executor.execute(graph, options.execute);
     rendering.gpuMs += std::max(executor.capture().frameGpuMs, 0.0);
     rendering.wallMs += executor.capture().frameWallMs;
-    if (back.statistics) {
+    for (const Buffer& buffer : back.statistics) {
       shared::FrameStatistics statistics;
-      std::memcpy(&statistics, executor.mapped(back.statistics).data(), sizeof statistics);
+      std::memcpy(&statistics, executor.mapped(buffer).data(), sizeof statistics);
       add(rendering.statistics, statistics);
-      if (statistics.transparentDropped > 0) return rendering;  // The caller makes room and starts again.
     }
+    if (rendering.statistics.transparentDropped > 0) return rendering;  // The caller makes room and starts again.
     if (options.progress) options.progress(frame + 1, frames);
     if (!isLast) continue;
     rendering.color = imageFrom(executor.mapped(back.color), inputs.extent, 4);
@@ -276,7 +287,7 @@ Rendering Renderer::render(const Shot& shot, const RenderOptions& options) {
 void Renderer::declare(Graph& graph, const Shot& shot, const RenderOptions& options) {
   const auto& technique = techniqueOf(options);
   const auto out = state_->declareTechnique(graph, state_->sceneInputs(shot), technique, options);
-  graph.exportImage(out.color, {VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
+  graph.exportImage(out.technique.color, {VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
                                 VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
 }
 

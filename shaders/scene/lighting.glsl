@@ -5,9 +5,10 @@
 const float kPi = 3.14159265358979;
 
 // A tangent frame from screen-space derivatives, so that meshes need no tangents (Mikkelsen 2010 describes the idea).
-vec3 mappedNormal(MaterialConstants material, vec3 normal) {
-  if (material.surface.z == 0.0) return normal;
-  const vec2 uv = transformedUv(material.normalUv);
+vec3 mappedNormal(vec3 normal) {
+  const float normalScale = materials[materialIndex].surface.z;
+  if (normalScale == 0.0) return normal;
+  const vec2 uv = transformedUv(materials[materialIndex].normalUv);
   const vec3 dpdx = dFdx(viewPosition), dpdy = dFdy(viewPosition);
   const vec2 duvdx = dFdx(uv), duvdy = dFdy(uv);
   const vec3 perpX = cross(normal, dpdx), perpY = cross(dpdy, normal);
@@ -16,7 +17,7 @@ vec3 mappedNormal(MaterialConstants material, vec3 normal) {
   const float longest = max(dot(tangent, tangent), dot(bitangent, bitangent));
   if (!(longest > 0.0)) return normal;
   vec3 local = textureLod(normalMap, uv, 0.0).xyz * 2.0 - 1.0;
-  local.xy *= material.surface.z;
+  local.xy *= normalScale;
   const float scale = inversesqrt(longest);
   // glTF's v points down the texture; its bitangent points up.
   return normalize(tangent * scale * local.x - bitangent * scale * local.y + normal * local.z);
@@ -102,23 +103,24 @@ vec3 environmentLight(Shaded s) {
          specular * (s.specularColor * scaleBias.x + scaleBias.y);
 }
 
-vec3 shade(MaterialConstants material, vec3 baseColor) {
+vec3 shade(vec3 baseColor) {
+  const vec4 factors = materials[materialIndex].surface;
   vec3 normal = normalize(viewNormal);
   const vec3 toEye = normalize(view.lensPoint.xyz - viewPosition);
   if (!gl_FrontFacing) normal = -normal;
-  const vec4 sampled = textureLod(metallicRoughnessMap, transformedUv(material.metallicRoughnessUv), 0.0);
-  const float metallic = clamp(material.surface.x * sampled.b, 0.0, 1.0);
+  const vec4 sampled = textureLod(metallicRoughnessMap, transformedUv(materials[materialIndex].metallicRoughnessUv), 0.0);
+  const float metallic = clamp(factors.x * sampled.b, 0.0, 1.0);
   Shaded s;
-  s.normal = mappedNormal(material, normal);
+  s.normal = mappedNormal(normal);
   s.toEye = toEye;
   s.diffuseColor = baseColor * (1.0 - metallic);
   s.specularColor = mix(vec3(0.04), baseColor, metallic);
-  s.roughness = clamp(material.surface.y * sampled.g, 0.045, 1.0);
+  s.roughness = clamp(factors.y * sampled.g, 0.045, 1.0);
   vec3 radiance = vec3(0.0);
   for (uint i = 0u; i < scene.lightCount; ++i) radiance += punctualLight(s, lights[i]);
   if (scene.hasEnvironment != 0u) {
-    const float occlusion = textureLod(occlusionMap, transformedUv(material.occlusionUv), 0.0).r;
-    radiance += environmentLight(s) * mix(1.0, occlusion, material.surface.w);
+    const float occlusion = textureLod(occlusionMap, transformedUv(materials[materialIndex].occlusionUv), 0.0).r;
+    radiance += environmentLight(s) * mix(1.0, occlusion, factors.w);
   }
   return radiance;
 }

@@ -4,6 +4,9 @@
 #include "shaders/shared/scene.h"
 #include "shaders/shared/view.h"
 
+// Shaded, or the materials' own radiance: known when the pipeline is made, so that unlit pictures carry no lighting code.
+layout(constant_id = 1) const bool lit = false;
+
 layout(push_constant) uniform Push { ViewConstants view; };
 layout(std430, set = 0, binding = 1) readonly buffer Materials { MaterialConstants materials[]; };
 layout(std430, set = 0, binding = 2) readonly buffer Lights { LightConstants lights[]; };
@@ -30,20 +33,21 @@ vec2 transformedUv(UvTransform transform) {
 #include "lighting.glsl"
 
 // Alpha after the material's mode: 1, 0 or 1, or the blend factor.
-float surfaceAlpha(MaterialConstants material, float alpha) {
-  if (material.alphaMode == kAlphaOpaque) return 1.0;
-  if (material.alphaMode == kAlphaMask) return alpha > material.emissive.w ? 1.0 : 0.0;
+float surfaceAlpha(float alpha) {
+  const uint mode = materials[materialIndex].alphaMode;
+  if (mode == kAlphaOpaque) return 1.0;
+  if (mode == kAlphaMask) return alpha > materials[materialIndex].emissive.w ? 1.0 : 0.0;
   return alpha;
 }
 
 // Linear radiance (not premultiplied) and alpha towards the view's lens point.
+// Members are read where they are used: a copy of the whole material would load all of it for every fragment.
 vec4 surface() {
-  const MaterialConstants material = materials[materialIndex];
-  const vec4 base = vertexColor * material.baseColor *
-                    textureLod(baseColorMap, transformedUv(material.baseColorUv), 0.0);
-  const float alpha = surfaceAlpha(material, base.a);
-  if (material.unlit != 0u) return vec4(base.rgb, alpha);
-  const vec3 emissive = material.emissive.rgb * textureLod(emissiveMap, transformedUv(material.emissiveUv), 0.0).rgb;
-  if (scene.lit == 0u) return vec4(base.rgb + emissive, alpha);
-  return vec4(shade(material, base.rgb) + emissive, alpha);
+  const vec4 base = vertexColor * materials[materialIndex].baseColor *
+                    textureLod(baseColorMap, transformedUv(materials[materialIndex].baseColorUv), 0.0);
+  const float alpha = surfaceAlpha(base.a);
+  if (materials[materialIndex].unlit != 0u) return vec4(base.rgb, alpha);
+  const vec3 emissive = materials[materialIndex].emissive.rgb *
+                        textureLod(emissiveMap, transformedUv(materials[materialIndex].emissiveUv), 0.0).rgb;
+  return vec4((lit ? shade(base.rgb) : base.rgb) + emissive, alpha);
 }

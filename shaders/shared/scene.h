@@ -49,9 +49,9 @@ struct SceneConstants {
   vec4 irradiance[9];       // spherical harmonics of the environment's irradiance / π, world space; rgb
   vec4 worldFromViewRows[3];
   uint lightCount;
-  uint lit;                 // 0: radiance as stored in the materials; 1: shaded
   uint hasEnvironment;
   float environmentMips;    // levels of the environment map
+  uint padding;
 };
 
 SHARED_NAMESPACE_END

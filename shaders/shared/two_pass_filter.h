@@ -17,12 +17,11 @@ SHARED_CONST uint kTwoPassFilterTile = 16;
 SHARED_CONST float kTwoPassFilterMaxRadiance = 1e30f;
 
 struct TwoPassFilterConstants {
-  LensConstants lens;
-  float maxRadius;   // px, blur radii are limited to it
-  float minRadius;   // px, r_min of I = 1/max(r, r_min)²
-  float leakage;     // 1/px, k of L = min(1, k·r_c)
-  ivec2 size;        // px
-  ivec2 tiles;       // number of tiles
+  ivec2 size;          // px; these two first, where GLSL's 8-byte alignment of vectors and C++'s agree
+  ivec2 tiles;         // number of tiles
+  LensConstants lens;  // its maxCocRadius is the smaller of the lens's limit and the technique's
+  float minRadius;     // px, r_min of I = 1/max(r, r_min)²
+  float leakage;       // 1/px, k of L = min(1, k·r_c)
 };
 
 SHARED_NAMESPACE_END

@@ -11,7 +11,7 @@ namespace {
 
 using support::render;
 
-constexpr int kSide = 160;
+constexpr int kSide = 96;
 
 struct Spot {
   double x = 0.0, y = 0.0;     ///< Centroid, px.
@@ -61,7 +61,7 @@ TEST_F(CircleOfConfusion, OfAPointLightIsTheThinLensFormula) {
   constexpr double kSidePx = 1.0;
   for (const double depth : {1.01 * nearPlane, 1.0, 1.2, 1.4, 1.6, 1.8, 1.9, 2.1, 2.3, 2.7, 3.5, 6.0, 20.0, 1e3, 1e6}) {
     auto renderer = lightAt(depth, kSidePx, s);
-    const auto picture = render(renderer, shot, "accumulation", {{"lensSamples", int64_t{1024}}});
+    const auto picture = render(renderer, shot, "accumulation", {{"lensSamples", int64_t{256}}});
     const double expected = s * shot.lens.apertureRadius * std::abs(1.0 / shot.lens.focusDistance - 1.0 / depth);
     // The light and the pixel are squares of 1 px: each adds 1/6 px² to the mean squared distance, in both axes.
     const Spot spot = measure(picture.color);
@@ -105,8 +105,8 @@ TEST_F(CircleOfConfusion, TriangularApertureIsUprightBehindFocusAndInvertedInFro
   const double s = 0.5 * kSide / std::tan(0.5 * shot.camera.fovyDeg * std::numbers::pi / 180.0);
   auto farLight = lightAt(20.0, 1.0, s);
   auto nearLight = lightAt(1.1, 1.0, s);
-  const auto farPicture = render(farLight, shot, "accumulation", {{"lensSamples", int64_t{1024}}}).color;
-  const auto nearPicture = render(nearLight, shot, "accumulation", {{"lensSamples", int64_t{1024}}}).color;
+  const auto farPicture = render(farLight, shot, "accumulation", {{"lensSamples", int64_t{256}}}).color;
+  const auto nearPicture = render(nearLight, shot, "accumulation", {{"lensSamples", int64_t{256}}}).color;
   support::keepPicture(farPicture, "triangle_far");
   support::keepPicture(nearPicture, "triangle_near");
   // A triangle with its corner up has its tail towards smaller y.

@@ -1,4 +1,5 @@
-// Zhou 2007 §4.2, written for reading and not for speed: every pixel looks at its whole column, then its whole row.
+// Zhou 2007 §4.2, written for reading and not for speed: every pixel looks at its whole column, then its
+// whole row.
 #include "tests/support/two_pass_filter_reference.h"
 
 #include <algorithm>
@@ -43,7 +44,8 @@ std::vector<Rgb> filterAlong(const std::vector<Rgb>& input, int width, int heigh
       Rgb sum{};
       double weights = 0.0;
       for (int i = -reach; i <= reach; ++i) {
-        const int column = std::clamp(x + i * stepX, 0, width - 1), row = std::clamp(y + i * stepY, 0, height - 1);
+        const int column = std::clamp(x + i * stepX, 0, width - 1),
+                  row = std::clamp(y + i * stepY, 0, height - 1);
         const auto p = static_cast<std::size_t>(row * width + column);
         double weight = intensity(blur.radius[p]);
         if (i != 0) {

@@ -1,5 +1,5 @@
-// The two-pass filter of Zhou, Chen, Pullen 2007 on the CPU, in double precision, straight from the paper's formulas.
-// Shares no code with the shaders: it exists so that they can be wrong and be caught.
+// The two-pass filter of Zhou, Chen, Pullen 2007 on the CPU, in double precision, straight from the paper's
+// formulas. Shares no code with the shaders: it exists so that they can be wrong and be caught.
 #pragma once
 
 #include <array>
@@ -20,10 +20,11 @@ struct TwoPassFilterSettings {
   double focusDistance = 1.0;     ///< m; infinity allowed.
   double maxRadius = 256.0;       ///< px.
   double minRadius = 0.5;         ///< px.
-  double leakage = 1.0;           ///< 1/px.
+  double leakage = 0.25;          ///< 1/px.
 };
 
 /// Precondition: all values finite (depth may be infinite), depths > 0.
-std::vector<std::array<double, 3>> filterTwoPass(const RgbzPicture& picture, const TwoPassFilterSettings& settings);
+std::vector<std::array<double, 3>> filterTwoPass(const RgbzPicture& picture,
+                                                 const TwoPassFilterSettings& settings);
 
 }  // namespace support

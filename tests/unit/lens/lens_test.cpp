@@ -1,4 +1,5 @@
-// A physical lens against the thin-lens formulas in long double, over the extremes that pictures are asked for.
+// A physical lens against the thin-lens formulas in long double, over the extremes that pictures are asked
+// for.
 #include "engine/lens.h"
 
 #include <gmock/gmock.h>
@@ -35,14 +36,18 @@ long double exactCoc(const Lens& lens, double fovy, int height, double depth) {
   return s * aperture * (1.0L / lens.focusDistance - 1.0L / depth);
 }
 
-float depthBuffer(double nearPlane, double depth) { return static_cast<float>(nearPlane / depth); }
+float depthBuffer(double nearPlane, double depth) {
+  return static_cast<float>(nearPlane / depth);
+}
 
 float cocThroughDepthBuffer(const shared::LensConstants& constants, double nearPlane, double depth) {
   return shared::signedCocRadius(constants,
                                  shared::vergenceFromDepthBuffer(constants, depthBuffer(nearPlane, depth)));
 }
 
-TEST(Lens, DefaultsAreValid) { EXPECT_TRUE(engine::validate(Lens{}).empty()); }
+TEST(Lens, DefaultsAreValid) {
+  EXPECT_TRUE(engine::validate(Lens{}).empty());
+}
 
 TEST(Lens, EveryBadFieldIsNamed) {
   const auto with = [](auto member, auto value) {
@@ -54,7 +59,8 @@ TEST(Lens, EveryBadFieldIsNamed) {
   for (const double bad : {0.0, -1.0, kNaN, -kInfinity}) {
     EXPECT_THAT(with(&Lens::focusDistance, bad), ElementsAre("focusDistance")) << bad;
   }
-  for (const double bad : {-1.0, kNaN, kInfinity}) EXPECT_THAT(with(&Lens::fStop, bad), ElementsAre("fStop")) << bad;
+  for (const double bad : {-1.0, kNaN, kInfinity})
+    EXPECT_THAT(with(&Lens::fStop, bad), ElementsAre("fStop")) << bad;
   for (const double bad : {0.0, -50.0, kNaN, kInfinity}) {
     EXPECT_THAT(with(&Lens::focalLengthMm, bad), ElementsAre("focalLengthMm")) << bad;
     EXPECT_THAT(with(&Lens::sensorWidthMm, bad), ElementsAre("sensorWidthMm")) << bad;
@@ -67,7 +73,8 @@ TEST(Lens, EveryBadFieldIsNamed) {
     EXPECT_THAT(with(&Lens::bladeCurvature, bad), ElementsAre("bladeCurvature"));
     EXPECT_THAT(with(&Lens::maxCocRadius, bad), ElementsAre("maxCocRadius"));
   }
-  for (const int bad : {-1, 1, 2, 17}) EXPECT_THAT(with(&Lens::bladeCount, bad), ElementsAre("bladeCount")) << bad;
+  for (const int bad : {-1, 1, 2, 17})
+    EXPECT_THAT(with(&Lens::bladeCount, bad), ElementsAre("bladeCount")) << bad;
   EXPECT_THAT(with(&Lens::bladeCurvature, 1.01), ElementsAre("bladeCurvature"));
   EXPECT_THAT(with(&Lens::anamorphicRatio, 0.2), ElementsAre("anamorphicRatio"));
   EXPECT_THAT(with(&Lens::opticalVignetting, -0.1), ElementsAre("opticalVignetting"));
@@ -145,7 +152,8 @@ TEST(Lens, AWorkedExample) {
   EXPECT_NEAR(shared::signedCocRadius(pinhole, 0.0f), radiusOnSensor / 24.0 * 1080.0, 1e-4);
   lens.fovModel = FovModel::breathing;
   const auto breathing = engine::lensConstants(lens, fovy, 1080, 0.1);
-  EXPECT_NEAR(static_cast<double>(breathing.cocScale) / static_cast<double>(pinhole.cocScale), 3.0 / (3.0 - 0.085),
+  EXPECT_NEAR(static_cast<double>(breathing.cocScale) / static_cast<double>(pinhole.cocScale),
+              3.0 / (3.0 - 0.085),
               1e-6);  // 2.9 %
 }
 
@@ -199,7 +207,8 @@ TEST(Lens, TheDepthBufferGivesTheCocOverAllExtremes) {
           const long double larger = static_cast<long double>(constants.cocScale) *
                                      std::max(1.0L / lens.focusDistance, 1.0L / depth);
           const auto coc = static_cast<long double>(cocThroughDepthBuffer(constants, nearPlane, depth));
-          ASSERT_LE(std::abs(coc - exact), 4.0L * 0x1p-23L * larger) << focus << ' ' << nearPlane << ' ' << depth;
+          ASSERT_LE(std::abs(coc - exact), 4.0L * 0x1p-23L * larger)
+              << focus << ' ' << nearPlane << ' ' << depth;
           ++checked;
         }
       }
@@ -221,8 +230,8 @@ TEST(Lens, NearFocusTheErrorStaysBelowItsBound) {
     const auto constants = engine::lensConstants(lens, kFovy, 1080, nearPlane);
     const long double scale = 0.5L * 1080 / std::tan(0.5L * kFovy) * engine::apertureRadius(lens);
     const auto coc = static_cast<long double>(cocThroughDepthBuffer(constants, nearPlane, depth));
-    worst = std::max(worst, std::abs(coc - exactCoc(lens, kFovy, 1080, depth)) /
-                                (scale / lens.focusDistance * 0x1p-23L));
+    worst = std::max(
+        worst, std::abs(coc - exactCoc(lens, kFovy, 1080, depth)) / (scale / lens.focusDistance * 0x1p-23L));
   }
   EXPECT_LT(worst, 2.0L);
   EXPECT_GT(worst, 0.5L) << "the bound would be idle";

@@ -57,8 +57,10 @@ TEST(LensSamples, TheDiscHasTheMomentsOfADisc) {
     EXPECT_NEAR(meanOf(samples, [](double x, double y) { return x * x + y * y; }), 0.5, 2e-3);
     EXPECT_NEAR(meanOf(samples, [](double x, double) { return x * x; }), 0.25, 2e-3);
     EXPECT_NEAR(meanOf(samples, [](double x, double y) { return x * y; }), 0.0, 2e-3);
-    EXPECT_NEAR(meanOf(samples, [](double x, double y) { return std::pow(x * x + y * y, 2); }), 1.0 / 3.0, 2e-3);
-    EXPECT_LE(meanOf(samples, [](double x, double y) { return std::hypot(x, y) > 1.0 + 1e-7 ? 1.0 : 0.0; }), 0.0);
+    EXPECT_NEAR(meanOf(samples, [](double x, double y) { return std::pow(x * x + y * y, 2); }), 1.0 / 3.0,
+                2e-3);
+    EXPECT_LE(meanOf(samples, [](double x, double y) { return std::hypot(x, y) > 1.0 + 1e-7 ? 1.0 : 0.0; }),
+              0.0);
   }
 }
 
@@ -66,8 +68,8 @@ TEST(LensSamples, TheDiscHasTheMomentsOfADisc) {
 TEST(LensSamples, TheDiscIsCoveredEvenly) {
   for (const auto pattern : kPatterns) {
     const auto samples = passes::lensSamples(disc(), pattern, 4096, true);
-    for (const auto& [cx, cy, r] : {std::array{0.0, 0.0, 0.5}, std::array{0.3, -0.4, 0.3}, std::array{-0.6, 0.1, 0.25},
-                                    std::array{0.0, 0.7, 0.2}}) {
+    for (const auto& [cx, cy, r] : {std::array{0.0, 0.0, 0.5}, std::array{0.3, -0.4, 0.3},
+                                    std::array{-0.6, 0.1, 0.25}, std::array{0.0, 0.7, 0.2}}) {
       const auto in = [&](double x, double y) { return std::hypot(x - cx, y - cy) < r ? 1.0 : 0.0; };
       EXPECT_NEAR(meanOf(samples, in), r * r, 6e-3) << static_cast<int>(pattern) << ' ' << cx << ' ' << cy;
     }
@@ -231,7 +233,8 @@ TEST(LensSamples, FullCurvatureIsTheDisc) {
   }
 }
 
-// At rotation 0 a corner points up: y is down, so the triangle's tip is at (0, -1) and its base lies below the centre.
+// At rotation 0 a corner points up: y is down, so the triangle's tip is at (0, -1) and its base lies below
+// the centre.
 TEST(LensSamples, TheTriangleStandsUpright) {
   const auto samples = sobolSamples(polygon(3), 4096);
   float top = 0, bottom = 0, left = 0, right = 0;

@@ -51,7 +51,8 @@ TEST(Parameters, ADescriptionHoldsTheDefaultsOfTheStruct) {
 }
 
 TEST(Parameters, ASetOverridesWhatItNamesAndNothingElse) {
-  const ParameterSet set = {{"lensSamples", int64_t{7}}, {"pattern", std::string("sobol")}, {"radius", int64_t{3}}};
+  const ParameterSet set = {
+      {"lensSamples", int64_t{7}}, {"pattern", std::string("sobol")}, {"radius", int64_t{3}}};
   EXPECT_TRUE(check(set).empty());
   const auto parameters = passes::fromSet<Parameters>(set, fields());
   EXPECT_EQ(parameters.samples, 7);
@@ -79,14 +80,16 @@ TEST(Parameters, RangesAreInclusiveAndNamedInTheRemedy) {
 }
 
 TEST(Parameters, NumbersMustBeFinite) {
-  EXPECT_THAT(onlyProblem({{"radius", std::numeric_limits<double>::quiet_NaN()}}).reason, HasSubstr("finite"));
+  EXPECT_THAT(onlyProblem({{"radius", std::numeric_limits<double>::quiet_NaN()}}).reason,
+              HasSubstr("finite"));
   EXPECT_THAT(onlyProblem({{"radius", std::numeric_limits<double>::infinity()}}).reason, HasSubstr("finite"));
 }
 
 TEST(Parameters, WrongTypesAreRefused) {
-  for (const ParameterSet& set : {ParameterSet{{"lensSamples", 3.0}}, ParameterSet{{"lensSamples", true}},
-                                  ParameterSet{{"radius", std::string("3")}}, ParameterSet{{"jitter", int64_t{1}}},
-                                  ParameterSet{{"pattern", int64_t{1}}}}) {
+  for (const ParameterSet& set :
+       {ParameterSet{{"lensSamples", 3.0}}, ParameterSet{{"lensSamples", true}},
+        ParameterSet{{"radius", std::string("3")}}, ParameterSet{{"jitter", int64_t{1}}},
+        ParameterSet{{"pattern", int64_t{1}}}}) {
     EXPECT_THAT(onlyProblem(set).reason, HasSubstr("wrong type"));
   }
 }
@@ -110,13 +113,27 @@ struct ParseCase {
 TEST(Parameters, TextIsReadAsTheParametersType) {
   const auto infos = passes::describe<Parameters>(fields());
   const std::vector<ParseCase> cases = {
-      {0, "12", true, int64_t{12}},    {0, "+12", true, int64_t{12}}, {0, "-3", true, int64_t{-3}},
-      {0, "1.5", false, {}},           {0, "", false, {}},            {0, "12x", false, {}},
-      {0, "99999999999999999999", false, {}}, {0, " 1", false, {}},   {0, "+-1", false, {}},
-      {1, "0.25", true, 0.25},         {1, "1e2", true, 100.0},       {1, "7", true, 7.0},
-      {1, "nan", false, {}},           {1, "inf", false, {}},         {1, "1e999", false, {}},
-      {1, "1,5", false, {}},           {1, "+", false, {}},           {2, "true", true, true},
-      {2, "false", true, false},       {2, "yes", false, {}},         {3, "sobol", true, std::string("sobol")},
+      {0, "12", true, int64_t{12}},
+      {0, "+12", true, int64_t{12}},
+      {0, "-3", true, int64_t{-3}},
+      {0, "1.5", false, {}},
+      {0, "", false, {}},
+      {0, "12x", false, {}},
+      {0, "99999999999999999999", false, {}},
+      {0, " 1", false, {}},
+      {0, "+-1", false, {}},
+      {1, "0.25", true, 0.25},
+      {1, "1e2", true, 100.0},
+      {1, "7", true, 7.0},
+      {1, "nan", false, {}},
+      {1, "inf", false, {}},
+      {1, "1e999", false, {}},
+      {1, "1,5", false, {}},
+      {1, "+", false, {}},
+      {2, "true", true, true},
+      {2, "false", true, false},
+      {2, "yes", false, {}},
+      {3, "sobol", true, std::string("sobol")},
       {3, "Sobol", false, {}},
   };
   for (const auto& one : cases) {

@@ -14,8 +14,12 @@ constexpr double kSky = std::numeric_limits<double>::infinity();
 
 /// Focus at 1 m, S·E = 10 px·m: the sky blurs to 10 px, 2 m to 5 px, 0.5 m to -10 px.
 TwoPassFilterSettings settings() {
-  return {.pixelsPerTangent = 1000.0, .apertureRadius = 0.01, .focusDistance = 1.0, .maxRadius = 64.0,
-          .minRadius = 0.5, .leakage = 1.0};
+  return {.pixelsPerTangent = 1000.0,
+          .apertureRadius = 0.01,
+          .focusDistance = 1.0,
+          .maxRadius = 64.0,
+          .minRadius = 0.5,
+          .leakage = 1.0};
 }
 
 RgbzPicture row(std::vector<double> gray, std::vector<double> depth) {
@@ -30,7 +34,8 @@ TEST(TwoPassFilterReference, InFocusNothingChanges) {
   EXPECT_EQ(out[2][0], 5.0);
 }
 
-// A near pixel of radius 2.5 between focused ones: O is 1 at distance 1, 0.5 at 2, 0 at 3; I is 1/2.5² against 1/0.5².
+// A near pixel of radius 2.5 between focused ones: O is 1 at distance 1, 0.5 at 2, 0 at 3; I is 1/2.5²
+// against 1/0.5².
 TEST(TwoPassFilterReference, ANearPixelSpreadsOverFocusedOnes) {
   const double depth = 1.0 / 1.25;
   const auto out = filterTwoPass(row({0, 0, 0, 8, 0}, {1, 1, 1, depth, 1}), settings());

@@ -1,4 +1,5 @@
-// What the two-pass filter declares: its nodes, nothing without an aperture, and errors for inputs that do not fit.
+// What the two-pass filter declares: its nodes, nothing without an aperture, and errors for inputs that do
+// not fit.
 #include "passes/two_pass_filter/two_pass_filter.h"
 
 #include <gmock/gmock.h>
@@ -28,7 +29,10 @@ struct Frame {
       return rendergraph::ImageDesc{.format = format, .width = extent.width, .height = extent.height};
     };
     inputs.extent = extent;
-    inputs.lens = {.cocScale = 20.0f, .focusVergence = 0.3f, .maxCocRadius = 1e30f, .vergenceScale = 100.0f,
+    inputs.lens = {.cocScale = 20.0f,
+                   .focusVergence = 0.3f,
+                   .maxCocRadius = 1e30f,
+                   .vergenceScale = 100.0f,
                    .vergenceOffset = 0.0f};
     inputs.color = graph.importImage("color", desc(VK_FORMAT_R16G16B16A16_SFLOAT), host);
     inputs.depth = graph.importImage("depth", desc(depthFormat), host);
@@ -70,9 +74,10 @@ TEST(TwoPassFilter, IsRegisteredWithItsParameters) {
 TEST(TwoPassFilter, DeclaresItsNodes) {
   Frame frame;
   const auto outputs = frame.declare();
-  EXPECT_THAT(frame.declaredPasses(),
-              ElementsAre("two_pass_filter.clear_statistics", "two_pass_filter.prepare", "two_pass_filter.reach",
-                          "two_pass_filter.vertical", "two_pass_filter.horizontal"));
+  EXPECT_THAT(
+      frame.declaredPasses(),
+      ElementsAre("two_pass_filter.clear_statistics", "two_pass_filter.prepare", "two_pass_filter.tiles",
+                  "two_pass_filter.reach", "two_pass_filter.vertical", "two_pass_filter.horizontal"));
   const auto& desc = frame.graph.desc(outputs.color);
   EXPECT_EQ(desc.format, VK_FORMAT_R32G32B32A32_SFLOAT);
   EXPECT_EQ(desc.width, 640u);
@@ -95,7 +100,7 @@ TEST(TwoPassFilter, CompilesForEveryDepthFormatAndSize) {
       Frame frame(extent, format);
       const auto outputs = frame.declare();
       frame.graph.exportImage(outputs.color, kShown);
-      EXPECT_EQ(frame.plan().passes.size(), 5u);
+      EXPECT_EQ(frame.plan().passes.size(), 6u);
     }
   }
 }

@@ -1,123 +1,18 @@
+// Replays plans; see the header for the model.
 #include "plan_checker.h"
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <optional>
 #include <sstream>
+
+#include "usage_model.h"
 
 namespace plan_checker {
 
 using namespace rendergraph;
 
 namespace {
-
-constexpr uint32_t kStageCount = 12;
-constexpr std::array<VkPipelineStageFlags2, kStageCount> kStages = {
-    VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,        VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT,
-    VK_PIPELINE_STAGE_2_VERTEX_ATTRIBUTE_INPUT_BIT, VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT,
-    VK_PIPELINE_STAGE_2_GEOMETRY_SHADER_BIT,      VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
-    VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT, VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
-    VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-    VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,         VK_PIPELINE_STAGE_2_HOST_BIT};
-
-constexpr VkAccessFlags2 kReads = VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_2_INDEX_READ_BIT |
-                                  VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT | VK_ACCESS_2_UNIFORM_READ_BIT |
-                                  VK_ACCESS_2_SHADER_SAMPLED_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_READ_BIT |
-                                  VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT |
-                                  VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_TRANSFER_READ_BIT |
-                                  VK_ACCESS_2_HOST_READ_BIT;
-constexpr VkAccessFlags2 kWrites = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT |
-                                   VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT |
-                                   VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_HOST_WRITE_BIT;
-
-using StageMask = uint32_t;  // Bit i: kStages[i].
-
-StageMask stageMask(VkPipelineStageFlags2 stages) {
-  if ((stages & VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT) != 0) return (1u << kStageCount) - 1;
-  StageMask mask = 0;
-  for (uint32_t i = 0; i < kStageCount; ++i) mask |= (stages & kStages[i]) != 0 ? 1u << i : 0u;
-  return mask;
-}
-
-VkAccessFlags2 accessMask(VkAccessFlags2 access) {
-  VkAccessFlags2 mask = access & (kReads | kWrites);
-  if ((access & VK_ACCESS_2_MEMORY_READ_BIT) != 0) mask |= kReads;
-  if ((access & VK_ACCESS_2_MEMORY_WRITE_BIT) != 0) mask |= kWrites;
-  return mask;
-}
-
-using Touches = std::array<VkAccessFlags2, kStageCount>;  // What happens at each stage.
-
-/// One use of a subresource by one pass, or by the host.
-struct Use {
-  StageMask stages = 0;
-  Touches touches{};
-  VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
-  bool reads = false, writes = false;
-
-  void add(StageMask at, VkAccessFlags2 access) {
-    stages |= at;
-    for (uint32_t i = 0; i < kStageCount; ++i) {
-      if ((at >> i & 1) != 0) touches[i] |= access;
-    }
-  }
-};
-
-VkImageLayout layoutFor(Usage usage) {
-  switch (usage) {
-    case Usage::sampled: return VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-    case Usage::colorAttachment: return VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
-    case Usage::depthAttachment: return VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
-    case Usage::depthReadOnly: return VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL;
-    case Usage::transferSource: return VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
-    case Usage::transferDestination: return VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
-    default: return VK_IMAGE_LAYOUT_GENERAL;
-  }
-}
-
-void addAccess(Use& use, const DeclaredAccess& access) {
-  const bool reads = access.mode != AccessMode::write, writes = access.mode != AccessMode::read;
-  const auto touch = [&](VkPipelineStageFlags2 stages, VkAccessFlags2 read, VkAccessFlags2 write) {
-    use.add(stageMask(stages), (reads ? read : 0) | (writes ? write : 0));
-  };
-  switch (access.usage) {
-    case Usage::sampled: touch(access.stages, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, 0); break;
-    case Usage::storage:
-      touch(access.stages, VK_ACCESS_2_SHADER_STORAGE_READ_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
-      break;
-    case Usage::colorAttachment:
-      touch(VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT,
-            VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT);
-      break;
-    case Usage::depthAttachment:
-    case Usage::depthReadOnly:  // Tested in any case.
-      use.add(stageMask(VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT),
-              VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT |
-                  (writes ? VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT : 0));
-      break;
-    case Usage::transferSource:
-    case Usage::transferDestination:
-      // A partial transfer write keeps the rest without reading it.
-      touch(VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
-            access.usage == Usage::transferSource ? VK_ACCESS_2_TRANSFER_READ_BIT : 0,
-            VK_ACCESS_2_TRANSFER_WRITE_BIT);
-      break;
-    case Usage::uniform: touch(access.stages, VK_ACCESS_2_UNIFORM_READ_BIT, 0); break;
-    case Usage::indirect:
-      touch(VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT, 0);
-      break;
-    case Usage::vertex:
-      touch(VK_PIPELINE_STAGE_2_VERTEX_ATTRIBUTE_INPUT_BIT, VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT, 0);
-      break;
-    case Usage::index: touch(VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT, VK_ACCESS_2_INDEX_READ_BIT, 0); break;
-    case Usage::host:
-      touch(VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT, VK_ACCESS_2_HOST_WRITE_BIT);
-      break;
-  }
-  use.reads = use.reads || reads;
-  use.writes = use.writes || writes;
-}
 
 /// What remains of an earlier use, for the later ones to respect.
 struct Record {
@@ -558,7 +453,9 @@ std::vector<std::pair<std::string, std::optional<ImageBarrier>>> weakenings(cons
   changed = barrier;
   changed.oldLayout = VK_IMAGE_LAYOUT_UNDEFINED;
   // Without a change of layout the content may be dropped or not; keeping it costs nothing.
-  if (barrier.oldLayout != VK_IMAGE_LAYOUT_UNDEFINED && barrier.oldLayout != barrier.newLayout) result.emplace_back("dropping the content", changed);
+  if (barrier.oldLayout != VK_IMAGE_LAYOUT_UNDEFINED && barrier.oldLayout != barrier.newLayout) {
+    result.emplace_back("dropping the content", changed);
+  }
   return result;
 }
 

@@ -28,7 +28,7 @@ Options optionsFor(uint32_t seed) {
 }  // namespace
 
 TEST(RandomPlans, NoDependencyIsMissing) {
-  constexpr uint32_t kGraphs = 6000;
+  constexpr uint32_t kGraphs = 10000;
   uint64_t passes = 0, barriers = 0, aliasBarriers = 0;
   for (uint32_t seed = 0; seed < kGraphs; ++seed) {
     Graph graph;
@@ -49,7 +49,7 @@ TEST(RandomPlans, NoDependencyIsMissing) {
 }
 
 TEST(RandomPlans, EveryBarrierIsNeededInEveryBit) {
-  constexpr uint32_t kGraphs = 1500;
+  constexpr uint32_t kGraphs = 3000;
   uint64_t attempts = 0;
   for (uint32_t seed = 100000; seed < 100000 + kGraphs; ++seed) {
     Graph graph;
