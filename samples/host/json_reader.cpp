@@ -87,14 +87,18 @@ std::string join(const std::string& path, std::string_view name) {
 }
 
 /// Shortest text that reads back as the same number.
-std::string numberText(double value) { return json(value).dump(); }
+std::string numberText(double value) {
+  return json(value).dump();
+}
 
 }  // namespace
 
 json readJsonFile(const std::filesystem::path& file) {
   const std::string text = readText(file);
   DuplicateCheck duplicates(file.string());
-  const auto onEvent = [&](int, json::parse_event_t event, json& parsed) { return duplicates(event, parsed); };
+  const auto onEvent = [&](int, json::parse_event_t event, json& parsed) {
+    return duplicates(event, parsed);
+  };
   try {
     return json::parse(text, onEvent);
   } catch (const json::parse_error& error) {
@@ -122,12 +126,18 @@ void JsonNode::failAt(std::string_view name, const std::string& reason, const st
 
 std::string_view JsonNode::typeName() const {
   switch (value_->type()) {
-    case json::value_t::null: return "null";
-    case json::value_t::object: return "an object";
-    case json::value_t::array: return "an array";
-    case json::value_t::string: return "a string";
-    case json::value_t::boolean: return "a boolean";
-    default: return "a number";
+    case json::value_t::null:
+      return "null";
+    case json::value_t::object:
+      return "an object";
+    case json::value_t::array:
+      return "an array";
+    case json::value_t::string:
+      return "a string";
+    case json::value_t::boolean:
+      return "a boolean";
+    default:
+      return "a number";
   }
 }
 
@@ -150,7 +160,9 @@ void JsonNode::requireObject(std::initializer_list<std::string_view> known) cons
   }
 }
 
-bool JsonNode::has(std::string_view name) const { return value_->contains(name); }
+bool JsonNode::has(std::string_view name) const {
+  return value_->contains(name);
+}
 
 std::optional<JsonNode> JsonNode::find(std::string_view name) const {
   const auto found = value_->find(name);
@@ -184,12 +196,15 @@ std::vector<JsonNode> JsonNode::elements() const {
 std::vector<JsonNode> JsonNode::elements(std::size_t count, const std::string& what) const {
   auto all = elements();
   if (all.size() != count) {
-    fail("has " + std::to_string(all.size()) + " values, must have " + std::to_string(count), "write " + what);
+    fail("has " + std::to_string(all.size()) + " values, must have " + std::to_string(count),
+         "write " + what);
   }
   return all;
 }
 
-bool JsonNode::isString() const { return value_->is_string(); }
+bool JsonNode::isString() const {
+  return value_->is_string();
+}
 
 std::string JsonNode::text() const {
   if (!value_->is_string()) fail("is " + std::string(typeName()) + ", must be a string");

@@ -1,4 +1,5 @@
-// JSON files whose every value knows where it stands, so that each complaint names file, field, reason, remedy.
+// JSON files whose every value knows where it stands, so that each complaint names file, field, reason,
+// remedy.
 //
 // Does not do: writing, comments, trailing commas (JSON has none).
 #pragma once
@@ -15,8 +16,8 @@
 
 namespace host {
 
-/// Throws engine::Error: missing, a folder, empty, malformed (with line and column), a field given twice, a number
-/// that overflows.
+/// Throws engine::Error: missing, a folder, empty, malformed (with line and column), a field given twice, a
+/// number that overflows.
 nlohmann::json readJsonFile(const std::filesystem::path& file);
 
 /// One value of a file. The document outlives it.
@@ -28,7 +29,8 @@ class JsonNode {
   /// Throws engine::Error about this value.
   [[noreturn]] void fail(const std::string& reason, const std::string& remedy = {}) const;
   /// The same about a field of this object that may be absent.
-  [[noreturn]] void failAt(std::string_view name, const std::string& reason, const std::string& remedy = {}) const;
+  [[noreturn]] void failAt(std::string_view name, const std::string& reason,
+                           const std::string& remedy = {}) const;
 
   /// An object with no other fields than these; an unknown one is an error that names the nearest known.
   void requireObject(std::initializer_list<std::string_view> known) const;

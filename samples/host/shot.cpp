@@ -1,4 +1,5 @@
-// Reads shot files: see shot.h. Field by field in the order of a shot; the ranges of lens fields are engine/lens's.
+// Reads shot files: see shot.h. Field by field in the order of a shot; the ranges of lens fields are
+// engine/lens's.
 #include "samples/host/shot.h"
 
 #include <algorithm>
@@ -81,7 +82,8 @@ ShotCamera parseCamera(const JsonNode& node) {
     camera.gltfCamera = name->text();
     if (camera.gltfCamera->empty()) name->fail("is empty", "name a camera of the scene");
     for (const auto other : {"position", "target", "up", "fovyDeg"}) {
-      if (node.has(other)) node.failAt(other, "given beside gltfCamera, which has its own", "remove one of them");
+      if (node.has(other))
+        node.failAt(other, "given beside gltfCamera, which has its own", "remove one of them");
     }
   } else {
     parseLookAt(node, camera);
@@ -114,7 +116,8 @@ constexpr LensNumber kLensNumbers[] = {
 double parseFocusDistance(const JsonNode& node) {
   const char* remedy = "metres above 0, or \"infinity\"";
   if (node.isString()) {
-    if (node.text() != "infinity") node.fail("is \"" + node.text() + "\", must be a number or \"infinity\"", remedy);
+    if (node.text() != "infinity")
+      node.fail("is \"" + node.text() + "\", must be a number or \"infinity\"", remedy);
     return std::numeric_limits<double>::infinity();
   }
   const double distance = node.number();
@@ -122,13 +125,14 @@ double parseFocusDistance(const JsonNode& node) {
   return distance;
 }
 
-/// The aperture is given once: as a radius, or as focal length and f-number. With a radius the focal length still
-/// has a meaning where the field of view breathes.
+/// The aperture is given once: as a radius, or as focal length and f-number. With a radius the focal length
+/// still has a meaning where the field of view breathes.
 void parseApertureRadius(const JsonNode& lensNode, engine::Lens& lens) {
   const auto radius = lensNode.find("apertureRadius");
   if (!radius) return;
   if (lensNode.has("fStop")) {
-    lensNode.failAt("apertureRadius", "given beside fStop, which also sets the aperture", "remove one of them");
+    lensNode.failAt("apertureRadius", "given beside fStop, which also sets the aperture",
+                    "remove one of them");
   }
   if (lensNode.has("focalLengthMm") && lens.fovModel == engine::FovModel::pinhole) {
     lensNode.failAt("apertureRadius", "given beside focalLengthMm, which has no effect then",
@@ -184,7 +188,8 @@ void parsePicture(const JsonNode& root, const path& folder, Shot& shot) {
       shot.background[i] = static_cast<float>(parts[i].number(0.0, std::numeric_limits<float>::max()));
     }
   }
-  if (const auto environment = root.find("environment")) shot.environment = existingFile(*environment, folder);
+  if (const auto environment = root.find("environment"))
+    shot.environment = existingFile(*environment, folder);
   if (const auto shading = root.find("shading")) {
     const std::string text = shading->text();
     if (text != "unlit" && text != "lit") shading->fail("is \"" + text + "\", must be \"unlit\" or \"lit\"");
@@ -197,8 +202,8 @@ void parsePicture(const JsonNode& root, const path& folder, Shot& shot) {
 Shot readShot(const path& file) {
   const auto document = readJsonFile(file);
   const JsonNode root(document, file);
-  root.requireObject({"name", "description", "scene", "camera", "lens", "resolution", "background", "environment",
-                      "shading", "technique"});
+  root.requireObject({"name", "description", "scene", "camera", "lens", "resolution", "background",
+                      "environment", "shading", "technique"});
   const path folder = file.parent_path();
 
   Shot shot;
@@ -208,7 +213,8 @@ Shot readShot(const path& file) {
   for (const auto& part : root.at("scene", "write [{\"path\": \"scene.glb\"}]").elements()) {
     shot.scene.push_back(parsePart(part, folder));
   }
-  shot.camera = parseCamera(root.at("camera", "write {\"position\", \"target\", \"fovyDeg\"} or {\"gltfCamera\"}"));
+  shot.camera =
+      parseCamera(root.at("camera", "write {\"position\", \"target\", \"fovyDeg\"} or {\"gltfCamera\"}"));
   shot.lens = parseLens(root.at("lens", "write {\"apertureRadius\", \"focusDistance\"}"));
   parsePicture(root, folder, shot);
   if (const auto technique = root.find("technique")) {

@@ -28,8 +28,8 @@ struct ShotCamera {
   glm::dvec3 position{0.0};
   glm::dvec3 target{0.0, 0.0, -1.0};
   glm::dvec3 up{0.0, 1.0, 0.0};
-  double fovyDeg = 40.0;             ///< 0 < fovy < 180.
-  double nearPlane = 0.01;           ///< m, > 0.
+  double fovyDeg = 40.0;                  ///< 0 < fovy < 180.
+  double nearPlane = 0.01;                ///< m, > 0.
   std::optional<std::string> gltfCamera;  ///< Replaces position, target, up and fovy.
 };
 
@@ -40,7 +40,7 @@ struct Shot {
   std::vector<ScenePart> scene;
   ShotCamera camera;
   engine::Lens lens;
-  int width = 640, height = 360;     ///< px, 1…kMaxResolution.
+  int width = 640, height = 360;                         ///< px, 1…kMaxResolution.
   std::array<float, 3> background = {0.0f, 0.0f, 0.0f};  ///< Linear radiance.
   std::optional<std::filesystem::path> environment;
   Shading shading = Shading::unlit;

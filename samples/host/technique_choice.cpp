@@ -66,11 +66,13 @@ TechniqueChoice parseTechnique(const JsonNode& node, std::string_view defaultNam
   const auto* technique = passes::findTechnique(choice.name);
   if (technique == nullptr) {
     const auto nearest = passes::nearestTechniqueName(choice.name);
-    node.failAt("name", "unknown technique \"" + choice.name + "\"",
-                nearest.empty() ? "known are " + allTechniqueNames() : "did you mean " + std::string(nearest) + "?");
+    node.failAt(
+        "name", "unknown technique \"" + choice.name + "\"",
+        nearest.empty() ? "known are " + allTechniqueNames() : "did you mean " + std::string(nearest) + "?");
   }
   const auto problems = passes::check(choice.parameters, technique->parameters);
-  if (!problems.empty()) node.failAt(problems.front().parameter, problems.front().reason, problems.front().remedy);
+  if (!problems.empty())
+    node.failAt(problems.front().parameter, problems.front().reason, problems.front().remedy);
   return choice;
 }
 
@@ -92,10 +94,8 @@ void setParameter(TechniqueChoice& choice, std::string_view assignment) {
   const std::string name(assignment.substr(0, equals));
   const auto text = assignment.substr(equals + 1);
   const auto fail = [&](const passes::Problem& problem) {
-    throw engine::Error({.file = kCommandLine,
-                         .field = "--set " + name,
-                         .reason = problem.reason,
-                         .remedy = problem.remedy});
+    throw engine::Error(
+        {.file = kCommandLine, .field = "--set " + name, .reason = problem.reason, .remedy = problem.remedy});
   };
   const auto& technique = requireTechnique(choice.name, kCommandLine, "--technique");
   passes::ParameterValue value;

@@ -1,7 +1,7 @@
 // Which technique with which parameters: from a shot file, a configuration file, and the command line.
 //
-// Names, types and ranges are checked against the registry, so that a choice that exists is a legal one; what needs
-// the inputs to be seen (Technique::validate) is checked when it renders.
+// Names, types and ranges are checked against the registry, so that a choice that exists is a legal one; what
+// needs the inputs to be seen (Technique::validate) is checked when it renders.
 #pragma once
 
 #include <filesystem>
@@ -24,13 +24,15 @@ struct TechniqueChoice {
 const passes::Technique& requireTechnique(std::string_view name, const std::string& file,
                                           const std::string& field);
 
-/// {"name": …, parameters…}. Without "name" the parameters are for `defaultName`; empty: "name" must be there.
+/// {"name": …, parameters…}. Without "name" the parameters are for `defaultName`; empty: "name" must be
+/// there.
 TechniqueChoice parseTechnique(const JsonNode& node, std::string_view defaultName = {});
 
 /// A file {"technique": {"name": …, parameters…}}. Throws engine::Error.
 TechniqueChoice readTechniqueFile(const std::filesystem::path& file, std::string_view defaultName);
 
-/// One assignment "key=value" as the command line gives it. Throws engine::Error; the choice is then unchanged.
+/// One assignment "key=value" as the command line gives it. Throws engine::Error; the choice is then
+/// unchanged.
 void setParameter(TechniqueChoice& choice, std::string_view assignment);
 
 }  // namespace host

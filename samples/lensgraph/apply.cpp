@@ -46,13 +46,16 @@ engine::Lens lensOf(const ApplyArguments& arguments) {
 }
 
 void checkTechnique(const host::TechniqueChoice& choice) {
-  if (host::requireTechnique(choice.name, "command line", "--technique").input == passes::TechniqueInput::image) return;
+  if (host::requireTechnique(choice.name, "command line", "--technique").input ==
+      passes::TechniqueInput::image)
+    return;
   std::string usable;
   for (const auto& technique : passes::techniques()) {
     if (technique.input != passes::TechniqueInput::image) continue;
     usable += (usable.empty() ? "" : ", ") + std::string(technique.name);
   }
-  failUsage("--technique", choice.name + " draws the scene and cannot work on a picture", "those that can: " + usable);
+  failUsage("--technique", choice.name + " draws the scene and cannot work on a picture",
+            "those that can: " + usable);
 }
 
 }  // namespace
@@ -70,7 +73,9 @@ int runApply(const ApplyArguments& arguments, const GlobalArguments& global) {
   const auto color = engine::readImage(arguments.color);
   const auto depth = engine::readDepth(arguments.depth);
   if (color.width != depth.width || color.height != depth.height) {
-    const auto size = [](const auto& image) { return std::to_string(image.width) + "x" + std::to_string(image.height); };
+    const auto size = [](const auto& image) {
+      return std::to_string(image.width) + "x" + std::to_string(image.height);
+    };
     throw engine::Error({.file = arguments.depth.string(),
                          .field = "--depth",
                          .reason = "is " + size(depth) + " px, the colour picture is " + size(color) + " px",

@@ -32,7 +32,8 @@ std::string hashOfFiles(const std::vector<std::filesystem::path>& files) {
   uint64_t hash = 0xcbf29ce484222325u;
   for (const auto& file : files) {
     std::ifstream stream(file, std::ios::binary);
-    for (auto byte = std::istreambuf_iterator<char>(stream); byte != std::istreambuf_iterator<char>{}; ++byte) {
+    for (auto byte = std::istreambuf_iterator<char>(stream); byte != std::istreambuf_iterator<char>{};
+         ++byte) {
       hash = (hash ^ static_cast<unsigned char>(*byte)) * 0x100000001b3u;
     }
   }

@@ -1,4 +1,5 @@
-// The capture of one rendering as JSON: program, device, shot, parameters, times, memory; enough to hold two together.
+// The capture of one rendering as JSON: program, device, shot, parameters, times, memory; enough to hold two
+// together.
 #pragma once
 
 #include <filesystem>
@@ -18,8 +19,8 @@ nlohmann::json toJson(const engine::DeviceDescription& device);
 /// JSON has no infinity: it becomes "infinity", "-infinity" or "nan".
 nlohmann::json toJson(double value);
 
-/// FNV-1a over the bytes of the files in this order, as 16 hexadecimal digits. A glTF file's external buffers and
-/// images are not followed. Unreadable files count as empty.
+/// FNV-1a over the bytes of the files in this order, as 16 hexadecimal digits. A glTF file's external buffers
+/// and images are not followed. Unreadable files count as empty.
 std::string hashOfFiles(const std::vector<std::filesystem::path>& files);
 
 struct CaptureInput {

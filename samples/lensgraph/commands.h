@@ -23,8 +23,8 @@ struct PictureSize {
 
 /// How the technique is chosen: shot file, then configuration file, then technique and settings.
 struct TechniqueArguments {
-  std::string technique;                       ///< Empty: as the files say.
-  std::vector<std::string> settings;           ///< "key=value"
+  std::string technique;              ///< Empty: as the files say.
+  std::vector<std::string> settings;  ///< "key=value"
   std::optional<std::filesystem::path> config;
 };
 
@@ -78,8 +78,8 @@ int runDemo(const DemoArguments& arguments, const GlobalArguments& global);
 int runTechniques(bool json);
 int runDevices(bool json);
 
-/// Parses the command line and runs what it asks for. Throws what the subcommands throw, and engine::Error (with
-/// file "command line") for wrong usage.
+/// Parses the command line and runs what it asks for. Throws what the subcommands throw, and engine::Error
+/// (with file "command line") for wrong usage.
 int run(int argc, char** argv);
 
 }  // namespace cli

@@ -20,24 +20,32 @@ namespace {
 
 using std::filesystem::path;
 
-/// Runs of one technique on one scene, of which the median counts, unless one alone takes longer than kLongRunMs.
+/// Runs of one technique on one scene, of which the median counts, unless one alone takes longer than
+/// kLongRunMs.
 constexpr int kRuns = 3;
 constexpr double kLongRunMs = 500.0;
 
-/// Lens samples of the accumulation that is measured like any other technique: few, for the reference has the many.
+/// Lens samples of the accumulation that is measured like any other technique: few, for the reference has the
+/// many.
 constexpr int64_t kQuickSamples = 32;
 
 std::vector<path> shotsIn(const path& folder) {
   std::error_code code;
   if (!std::filesystem::is_directory(folder, code)) {
-    throw engine::Error({.file = folder.string(), .field = "--scenes", .reason = "no such folder", .remedy = "check the path"});
+    throw engine::Error({.file = folder.string(),
+                         .field = "--scenes",
+                         .reason = "no such folder",
+                         .remedy = "check the path"});
   }
   std::vector<path> shots;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (entry.path().extension() == ".json") shots.push_back(entry.path());
   }
   if (shots.empty()) {
-    throw engine::Error({.file = folder.string(), .field = "--scenes", .reason = "holds no shot files (*.json)", .remedy = {}});
+    throw engine::Error({.file = folder.string(),
+                         .field = "--scenes",
+                         .reason = "holds no shot files (*.json)",
+                         .remedy = {}});
   }
   std::sort(shots.begin(), shots.end());
   return shots;
@@ -64,11 +72,8 @@ void scaleTo(host::Shot& shot, int width) {
 
 host::Rendering renderOnce(host::Renderer& renderer, const host::Shot& shot, const std::string& technique,
                            const passes::ParameterSet& parameters) {
-  host::RenderOptions options{.technique = technique,
-                              .parameters = parameters,
-                              .execute = {},
-                              .wantDepth = false,
-                              .progress = {}};
+  host::RenderOptions options{
+      .technique = technique, .parameters = parameters, .execute = {}, .wantDepth = false, .progress = {}};
   options.execute.timing = rendergraph::Timing::inlineTimestamps;
   return renderer.render(shot, options);
 }
@@ -159,10 +164,11 @@ int runDemo(const DemoArguments& arguments, const GlobalArguments& global) {
   std::cout << "device  " << device << "\n" << std::flush;
 
   const std::string commit = kCommit;
-  DemoReport report{.device = device,
-                    .version = std::string("lensgraph ") + kVersion + (commit.empty() ? "" : " (" + commit + ")"),
-                    .referenceSamples = arguments.referenceSamples,
-                    .scenes = {}};
+  DemoReport report{
+      .device = device,
+      .version = std::string("lensgraph ") + kVersion + (commit.empty() ? "" : " (" + commit + ")"),
+      .referenceSamples = arguments.referenceSamples,
+      .scenes = {}};
   {
     Steps steps(shots.size() * (1 + passes::techniques().size()));
     for (const auto& shot : shots) report.scenes.push_back(renderScene(session, shot, arguments, steps));
@@ -172,7 +178,8 @@ int runDemo(const DemoArguments& arguments, const GlobalArguments& global) {
 
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   std::cout << "\n" << demoTable(report) << "\npage    " << page.string() << "\n";
-  std::printf("took    %.0f s; reference: accumulation, %d lens samples\n", seconds, arguments.referenceSamples);
+  std::printf("took    %.0f s; reference: accumulation, %d lens samples\n", seconds,
+              arguments.referenceSamples);
   return session.finish();
 }
 

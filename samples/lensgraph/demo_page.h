@@ -11,12 +11,12 @@ struct DemoResult {
   std::string technique, title;
   std::string picture, errorPicture;  ///< Files, relative to the page.
   double gpuMs = 0.0, wallMs = 0.0;
-  double psnr = 0.0;                  ///< dB
+  double psnr = 0.0;  ///< dB
   std::optional<double> ssim;
 };
 
 struct DemoScene {
-  std::string id;         ///< Of the shot file, without extension.
+  std::string id;  ///< Of the shot file, without extension.
   std::string name;
   std::string reference;  ///< File, relative to the page.
   double referenceWallMs = 0.0;

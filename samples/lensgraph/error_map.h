@@ -7,11 +7,12 @@
 
 namespace cli {
 
-/// Largest difference of a channel of the displayed pictures that the map still tells apart; above it stays the last
-/// colour. A quarter of full scale: most of what depth of field gets wrong lies below.
+/// Largest difference of a channel of the displayed pictures that the map still tells apart; above it stays
+/// the last colour. A quarter of full scale: most of what depth of field gets wrong lies below.
 inline constexpr float kErrorMapEnd = 0.25f;
 
-/// sRGB-encoded colour of an error from 0 (black) over purple and orange to kErrorMapEnd and above (pale yellow).
+/// sRGB-encoded colour of an error from 0 (black) over purple and orange to kErrorMapEnd and above (pale
+/// yellow).
 std::array<float, 3> errorColor(float error);
 
 /// A linear picture to be written as PNG. Precondition: both have the same size and at least three channels.

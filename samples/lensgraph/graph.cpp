@@ -1,9 +1,10 @@
 // lensgraph graph: the compiled render graph of a shot and a technique, for Graphviz or as JSON.
+#include "rendergraph/graph.h"
+
 #include <cstdio>
 #include <sstream>
 
 #include "rendergraph/dump.h"
-#include "rendergraph/graph.h"
 #include "samples/lensgraph/commands.h"
 #include "samples/lensgraph/output.h"
 #include "samples/lensgraph/session.h"

@@ -26,7 +26,8 @@ void setUpLogging() {
   spdlog::set_default_logger(std::move(logger));
 }
 
-/// FILE: FIELD: reason (remedy). Line breaks and other control characters become spaces: an error is one line.
+/// FILE: FIELD: reason (remedy). Line breaks and other control characters become spaces: an error is one
+/// line.
 std::string lineOf(const engine::ErrorParts& parts) {
   std::string line;
   if (!parts.file.empty()) line += parts.file + ": ";
@@ -43,7 +44,8 @@ int guardedRun(int argc, char** argv) {
   try {
     const int code = cli::run(argc, argv);
     std::cout.flush();  // into stdout's buffer, which printf shares
-    if (!std::cout || std::fflush(stdout) != 0) throw engine::Error("standard output cannot be written", engine::ErrorKind::failed);
+    if (!std::cout || std::fflush(stdout) != 0)
+      throw engine::Error("standard output cannot be written", engine::ErrorKind::failed);
     return code;
   } catch (const engine::Error& error) {
     spdlog::error("{}", lineOf(error.parts()));

@@ -34,7 +34,8 @@ path besides(const path& file) {
 
 void checkExtension(const path& file, std::string_view option, std::span<const std::string_view> extensions) {
   const std::string extension = lowerExtension(file);
-  if (extensions.empty() || std::find(extensions.begin(), extensions.end(), extension) != extensions.end()) return;
+  if (extensions.empty() || std::find(extensions.begin(), extensions.end(), extension) != extensions.end())
+    return;
   std::string known;
   for (const auto each : extensions) known += (known.empty() ? "" : ", ") + std::string(each);
   throw engine::Error({.file = file.string(),
@@ -86,8 +87,9 @@ void writeTextFile(const path& file, std::string_view text) {
   if (!stream || code) {
     const std::string reason = code ? code.message() : std::strerror(errno);
     std::filesystem::remove(temporary, code);
-    throw engine::Error({.file = file.string(), .field = {}, .reason = "cannot be written: " + reason, .remedy = {}},
-                        engine::ErrorKind::failed);
+    throw engine::Error(
+        {.file = file.string(), .field = {}, .reason = "cannot be written: " + reason, .remedy = {}},
+        engine::ErrorKind::failed);
   }
 }
 

@@ -8,8 +8,9 @@
 
 namespace cli {
 
-/// Throws engine::Error (bad input) unless the file could be written: its folder is there and takes files, and the path
-/// is no folder. `extensions`: those allowed, lower case with the dot; empty allows any. Leaves nothing behind.
+/// Throws engine::Error (bad input) unless the file could be written: its folder is there and takes files,
+/// and the path is no folder. `extensions`: those allowed, lower case with the dot; empty allows any. Leaves
+/// nothing behind.
 void checkOutput(const std::filesystem::path& file, std::string_view option,
                  std::span<const std::string_view> extensions = {});
 

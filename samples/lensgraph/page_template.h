@@ -1,7 +1,8 @@
 // Fills a text template with values, escaped for HTML: the part of Mustache that the demo's page needs.
 //
 //   {{name}}                 the value as text, escaped
-//   {{#name}}…{{/name}}      once for each element of an array, or once when it is true; inside, an element's fields
+//   {{#name}}…{{/name}}      once for each element of an array, or once when it is true; inside, an element's
+//   fields
 //                            are found first, then those around it
 //   {{^name}}…{{/name}}      when it is false, null or an empty array
 // Does not do: partials, comments, unescaped values, other delimiters.

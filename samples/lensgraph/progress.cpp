@@ -19,9 +19,13 @@ ProgressBar::ProgressBar(std::string label)
       start_(std::chrono::steady_clock::now()),
       nextDraw_(start_ + kDrawInterval) {}
 
-ProgressBar::~ProgressBar() { wipe(); }
+ProgressBar::~ProgressBar() {
+  wipe();
+}
 
-void ProgressBar::label(std::string text) { label_ = std::move(text); }
+void ProgressBar::label(std::string text) {
+  label_ = std::move(text);
+}
 
 void ProgressBar::update(uint32_t done, uint32_t total) {
   const auto now = std::chrono::steady_clock::now();
@@ -30,8 +34,8 @@ void ProgressBar::update(uint32_t done, uint32_t total) {
   const double share = static_cast<double>(done) / total;
   const int filled = static_cast<int>(share * kBarWidth);
   const double seconds = std::chrono::duration<double>(now - start_).count();
-  std::fprintf(stderr, "\r%s [%.*s%*s] %3.0f %%  %u/%u", label_.c_str(), filled, "##############################",
-               kBarWidth - filled, "", share * 100.0, done, total);
+  std::fprintf(stderr, "\r%s [%.*s%*s] %3.0f %%  %u/%u", label_.c_str(), filled,
+               "##############################", kBarWidth - filled, "", share * 100.0, done, total);
   if (done > 0) std::fprintf(stderr, "  %.0f s left", seconds / done * (total - done));
   std::fputs("\033[K", stderr);
   std::fflush(stderr);

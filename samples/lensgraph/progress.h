@@ -1,4 +1,5 @@
-// A progress bar on a terminal; nothing at all in a pipe. Debian has no C++ library for one, and this is all it takes.
+// A progress bar on a terminal; nothing at all in a pipe. Debian has no C++ library for one, and this is all
+// it takes.
 #pragma once
 
 #include <chrono>

@@ -25,8 +25,9 @@ void checkOutputs(const RenderArguments& arguments) {
   if (arguments.exposureEv) warnUnusedExposure(arguments.output);
 }
 
-void writeOutputs(const RenderArguments& arguments, const host::Shot& shot, const host::TechniqueChoice& choice,
-                  const engine::DeviceDescription& device, const host::Rendering& rendering) {
+void writeOutputs(const RenderArguments& arguments, const host::Shot& shot,
+                  const host::TechniqueChoice& choice, const engine::DeviceDescription& device,
+                  const host::Rendering& rendering) {
   engine::writeImage(arguments.output, rendering.color, {.exposureEv = arguments.exposureEv.value_or(0.0)});
   if (arguments.depthOut) engine::writeImage(*arguments.depthOut, rendering.depth);
   if (!arguments.capture) return;

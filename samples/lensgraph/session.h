@@ -1,5 +1,5 @@
-// What the subcommands that need a device share: opening it, saying which it is, rendering with a progress bar,
-// and what the validation layers said.
+// What the subcommands that need a device share: opening it, saying which it is, rendering with a progress
+// bar, and what the validation layers said.
 #pragma once
 
 #include <memory>
@@ -32,8 +32,8 @@ class Session {
   std::unique_ptr<engine::Device> device_;
 };
 
-/// The files' choice overridden by the command line's. Parameters of `fromShot` are kept only when its technique is.
-/// Throws engine::Error.
+/// The files' choice overridden by the command line's. Parameters of `fromShot` are kept only when its
+/// technique is. Throws engine::Error.
 host::TechniqueChoice chooseTechnique(host::TechniqueChoice fromShot, const TechniqueArguments& arguments);
 
 /// Device, technique with every parameter, times: what each rendering subcommand prints on stdout.

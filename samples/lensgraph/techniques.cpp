@@ -16,10 +16,14 @@ using nlohmann::ordered_json;
 
 const char* nameOf(passes::ParameterType type) {
   switch (type) {
-    case passes::ParameterType::toggle: return "boolean";
-    case passes::ParameterType::integer: return "integer";
-    case passes::ParameterType::number: return "number";
-    case passes::ParameterType::choice: return "choice";
+    case passes::ParameterType::toggle:
+      return "boolean";
+    case passes::ParameterType::integer:
+      return "integer";
+    case passes::ParameterType::number:
+      return "number";
+    case passes::ParameterType::choice:
+      return "choice";
   }
   return "";
 }
@@ -77,7 +81,8 @@ int runTechniques(bool json) {
   }
   for (const auto& technique : passes::techniques()) {
     std::cout << technique.name << ": " << technique.title << " (" << technique.source << ")\n"
-              << "  works on " << (technique.input == passes::TechniqueInput::image ? "any picture with depth" : "scenes")
+              << "  works on "
+              << (technique.input == passes::TechniqueInput::image ? "any picture with depth" : "scenes")
               << "\n";
     for (const auto& info : technique.parameters) {
       std::cout << "  " << info.name << " = " << passes::toString(info.defaultValue);

@@ -1,5 +1,5 @@
-// What each subcommand gives for good input, as a user sees it. Rendering runs with validation on: a message of the
-// layers makes the exit status 1.
+// What each subcommand gives for good input, as a user sees it. Rendering runs with validation on: a message
+// of the layers makes the exit status 1.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -36,7 +36,8 @@ class GoodInput : public cli_test::ProgramTest {
     ASSERT_GE(image.channels, 3u);
     for (uint32_t y = 0; y < image.height; ++y) {
       for (uint32_t x = 0; x < image.width; ++x) {
-        for (int i = 0; i < 3; ++i) ASSERT_NEAR(image.pixel(x, y)[i], color[i], 1e-3 * color[i]) << x << " " << y;
+        for (int i = 0; i < 3; ++i)
+          ASSERT_NEAR(image.pixel(x, y)[i], color[i], 1e-3 * color[i]) << x << " " << y;
       }
     }
   }
@@ -61,7 +62,8 @@ TEST_F(GoodInput, EveryTechniqueHasAGraph) {
   for (const auto& technique : passes::techniques()) {
     SCOPED_TRACE(technique.name);
     const std::string name(technique.name);
-    const auto outcome = run({"graph", "shot.json", "--technique", name, "--dot", "-", "--json", "graph.json"});
+    const auto outcome =
+        run({"graph", "shot.json", "--technique", name, "--dot", "-", "--json", "graph.json"});
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_THAT(outcome.out, StartsWith("digraph"));
     EXPECT_THAT(outcome.err, HasSubstr("device "));
@@ -89,7 +91,8 @@ TEST_F(GoodInput, ExposureBrightensPng) {
 }
 
 TEST_F(GoodInput, CaptureSaysWhatWasDone) {
-  render({"--technique", "accumulation", "--set", "lensSamples=4", "--set", "pixelJitter=false", "--capture", "c.json"});
+  render({"--technique", "accumulation", "--set", "lensSamples=4", "--set", "pixelJitter=false", "--capture",
+          "c.json"});
   std::ifstream file(folder() / "c.json");
   const auto capture = json::parse(file);
   EXPECT_FALSE(capture["device"]["name"].get<std::string>().empty());
@@ -114,7 +117,11 @@ TEST_F(GoodInput, CaptureTellsInputsApart) {
   };
   const auto first = hash();
   EXPECT_EQ(hash(), first);
-  writeShot([&] { auto other = shot(); other["lens"]["focusDistance"] = 1.5; return other; }());
+  writeShot([&] {
+    auto other = shot();
+    other["lens"]["focusDistance"] = 1.5;
+    return other;
+  }());
   EXPECT_NE(hash(), first);
 }
 
@@ -144,8 +151,9 @@ TEST_F(GoodInput, TechniquesOnAnyPictureWithDepth) {
   for (const auto& technique : passes::techniques()) {
     if (technique.input != passes::TechniqueInput::image) continue;
     SCOPED_TRACE(technique.name);
-    runWell({"apply", "--validate", "--color", "c.exr", "--depth", "z.exr", "--fovy", "40", "--focal-length-mm", "50",
-             "--fstop", "2", "--focus", "infinity", "--technique", std::string(technique.name), "-o", "out.exr"});
+    runWell({"apply", "--validate", "--color", "c.exr", "--depth", "z.exr", "--fovy", "40",
+             "--focal-length-mm", "50", "--fstop", "2", "--focus", "infinity", "--technique",
+             std::string(technique.name), "-o", "out.exr"});
     const auto image = engine::readImage(folder() / "out.exr");
     EXPECT_NEAR(image.pixel(8, 6)[0], 0.5f, 5e-4f);
     EXPECT_NEAR(image.pixel(0, 0)[2], 0.5f, 5e-4f);
@@ -174,7 +182,8 @@ TEST_F(GoodInput, CompareMeasures) {
   const auto expected = engine::compareImages(picture, reference);
   EXPECT_DOUBLE_EQ(different["psnr"].get<double>(), expected.psnr);
   EXPECT_DOUBLE_EQ(different["maxErrorLinear"].get<double>(), 0.25);
-  EXPECT_THAT(runWell({"compare", "b.exr", "a.exr"}), testing::AllOf(HasSubstr("PSNR"), HasSubstr("SSIM"), HasSubstr("maximum error")));
+  EXPECT_THAT(runWell({"compare", "b.exr", "a.exr"}),
+              testing::AllOf(HasSubstr("PSNR"), HasSubstr("SSIM"), HasSubstr("maximum error")));
 }
 
 TEST_F(GoodInput, TechniquesAreListedWithUnitRangeAndDefault) {

@@ -106,8 +106,10 @@ Outcome run(const path& folder, const std::vector<std::string>& arguments) {
     _exit(127);
   }
   int status = 0;
-  if (child < 0 || waitpid(child, &status, 0) != child) throw std::runtime_error("the program could not be run");
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), contentOf(outFile), contentOf(errFile)};
+  if (child < 0 || waitpid(child, &status, 0) != child)
+    throw std::runtime_error("the program could not be run");
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), contentOf(outFile),
+          contentOf(errFile)};
 }
 
 ProgramTest::ProgramTest() {

@@ -20,10 +20,10 @@ Outcome run(const std::filesystem::path& folder, const std::vector<std::string>&
 
 /// A quad that faces the camera, and what may be wrong with it.
 struct QuadOptions {
-  float depth = 2.0f;           ///< m in front of the camera at the origin.
-  float firstX = -1.0f;         ///< x of the first corner; NaN for a broken file.
-  unsigned lastIndex = 3;       ///< 4 and above is out of range.
-  bool textured = false;        ///< By the file texture.png, which is the test's to write.
+  float depth = 2.0f;      ///< m in front of the camera at the origin.
+  float firstX = -1.0f;    ///< x of the first corner; NaN for a broken file.
+  unsigned lastIndex = 3;  ///< 4 and above is out of range.
+  bool textured = false;   ///< By the file texture.png, which is the test's to write.
 };
 
 class ProgramTest : public testing::Test {
@@ -45,7 +45,8 @@ class ProgramTest : public testing::Test {
   /// Status 0 and nothing on stderr; returns stdout.
   std::string runWell(const std::vector<std::string>& arguments) const;
   /// That status, one line on stderr that holds every part, nothing on stdout, and no file more than before.
-  void expectError(const std::vector<std::string>& arguments, int status, const std::vector<std::string>& parts) const;
+  void expectError(const std::vector<std::string>& arguments, int status,
+                   const std::vector<std::string>& parts) const;
 
  private:
   std::filesystem::path folder_, logs_;

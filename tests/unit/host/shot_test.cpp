@@ -223,7 +223,7 @@ TEST_F(ShotFile, SuggestsTechniquesAndParameters) {
 struct BadField {
   const char* pointer;  ///< Where the value is put …
   const char* value;
-  const char* field;    ///< … and the field that must be named.
+  const char* field;  ///< … and the field that must be named.
 };
 class BadShotField : public ShotFile, public testing::WithParamInterface<BadField> {};
 
@@ -253,7 +253,8 @@ constexpr BadField kBadFields[] = {
     {"/lens", R"({"fStop": "fast", "focusDistance": 1})", "lens.fStop"},
     {"/lens", R"({"focalLengthMm": 0, "focusDistance": 1})", "lens.focalLengthMm"},
     {"/lens", R"({"focalLengthMm": 85})", "lens.focusDistance"},
-    {"/lens", R"({"fovModel": "breathing", "focalLengthMm": 85, "focusDistance": 0.08})", "lens.focusDistance"},
+    {"/lens", R"({"fovModel": "breathing", "focalLengthMm": 85, "focusDistance": 0.08})",
+     "lens.focusDistance"},
     {"/lens/fovModel", "\"pinhol\"", "lens.fovModel"},
     {"/lens/bladeCount", "2", "lens.bladeCount"},
     {"/lens/bladeCount", "17", "lens.bladeCount"},
