@@ -1,5 +1,5 @@
-// The accumulation reference: how fast it converges, what its own error estimate is worth, that its number of views per
-// execution does not show, and pictures known in closed form.
+// The accumulation reference: how fast it converges, what its own error estimate is worth, that its number of
+// views per execution does not show, and pictures known in closed form.
 #include <gmock/gmock.h>
 
 #include <array>
@@ -26,7 +26,8 @@ host::Shot wideShot(int width, int height) {
 }
 
 double luma(const float* p) {
-  return 0.2126 * static_cast<double>(p[0]) + 0.7152 * static_cast<double>(p[1]) + 0.0722 * static_cast<double>(p[2]);
+  return 0.2126 * static_cast<double>(p[0]) + 0.7152 * static_cast<double>(p[1]) +
+         0.0722 * static_cast<double>(p[2]);
 }
 
 double lumaError(const engine::FloatImage& a, const engine::FloatImage& b) {
@@ -39,8 +40,8 @@ double lumaError(const engine::FloatImage& a, const engine::FloatImage& b) {
 
 class Accumulation : public support::GpuTest {};
 
-// Independent samples would give N^-0.5. The estimate takes them as independent, so it lies above the true error, ever
-// farther as N grows: about 3 times at 16 and 7 at 256.
+// Independent samples would give N^-0.5. The estimate takes them as independent, so it lies above the true
+// error, ever farther as N grows: 2 times at 16 and 4 at 256.
 TEST_F(Accumulation, ConvergesFasterThanRandomSamplingAndKnowsItsError) {
   host::Renderer renderer(support::device(), support::layeredScene(), std::nullopt);
   const auto shot = wideShot(64, 36);
@@ -54,10 +55,10 @@ TEST_F(Accumulation, ConvergesFasterThanRandomSamplingAndKnowsItsError) {
       parameters["pattern"] = std::string(pattern);
       const auto rendering = render(renderer, shot, "accumulation", parameters);
       errors[i] = lumaError(rendering.color, truth);
-      std::printf("%-6s %4d samples: RMS error %.5f, estimate %.5f\n", pattern, static_cast<int>(counts[i]), errors[i],
-                  rendering.estimatedError);
+      std::printf("%-6s %4d samples: RMS error %.5f, estimate %.5f\n", pattern, static_cast<int>(counts[i]),
+                  errors[i], rendering.estimatedError);
       EXPECT_GE(rendering.estimatedError, errors[i]) << pattern << ' ' << counts[i];
-      EXPECT_LE(rendering.estimatedError, 10.0 * errors[i]) << pattern << ' ' << counts[i];
+      EXPECT_LE(rendering.estimatedError, 8.0 * errors[i]) << pattern << ' ' << counts[i];
     }
     const double exponent = std::log(errors[2] / errors[0]) / std::log(16.0);
     std::printf("%-6s error ~ N^%.2f\n", pattern, exponent);
@@ -69,7 +70,8 @@ TEST_F(Accumulation, ConvergesFasterThanRandomSamplingAndKnowsItsError) {
 
 TEST_F(Accumulation, ViewsPerFrameDoNotShow) {
   auto scene = support::layeredScene();
-  support::addFacingQuad(scene, 1.2, 0.2, 0.0, 0.1, 0.3, support::addMaterial(scene, {0.1f, 0.9f, 0.2f, 0.4f}));
+  support::addFacingQuad(scene, 1.2, 0.2, 0.0, 0.1, 0.3,
+                         support::addMaterial(scene, {0.1f, 0.9f, 0.2f, 0.4f}));
   host::Renderer renderer(support::device(), scene, std::nullopt);
   auto shot = wideShot(61, 35);
   shot.lens.sphericalAberration = 0.5;
@@ -97,7 +99,8 @@ TEST_F(Accumulation, MaskedAndBlendedSurfacesOfOneColourStayThatColour) {
   for (const double depth : {0.9, 1.9, 2.0, 4.0}) {
     support::addFacingQuad(scene, depth, 0.0, 0.0, 0.3, 0.3, masked);
     // Alpha falls below the cutoff towards the right edge.
-    for (const float alpha : {1.0f, 0.0f, 0.0f, 1.0f}) scene.primitives.back().colors.emplace_back(1.0f, 1.0f, 1.0f, alpha);
+    for (const float alpha : {1.0f, 0.0f, 0.0f, 1.0f})
+      scene.primitives.back().colors.emplace_back(1.0f, 1.0f, 1.0f, alpha);
   }
   host::Renderer renderer(support::device(), scene, std::nullopt);
   auto shot = support::smallShot(97, 61);
@@ -115,16 +118,19 @@ TEST_F(Accumulation, MaskedAndBlendedSurfacesOfOneColourStayThatColour) {
   EXPECT_LE(worst, 1e-5);
 }
 
-// A blended pane covers as its alpha, a masked one by its holes, blurred as any other surface: the whole lens's mean.
+// A blended pane covers as its alpha, a masked one by its holes, blurred as any other surface: the whole
+// lens's mean.
 TEST_F(Accumulation, BlurredPanesKeepTheirCoverage) {
   engine::Scene scene;
-  support::addFacingQuad(scene, 1.0, 0.0, 0.0, 0.04, 0.04, support::addMaterial(scene, {1.0f, 0.0f, 0.0f, 0.25f}));
+  support::addFacingQuad(scene, 1.0, 0.0, 0.0, 0.04, 0.04,
+                         support::addMaterial(scene, {1.0f, 0.0f, 0.0f, 0.25f}));
   host::Renderer renderer(support::device(), scene, std::nullopt);
   const auto shot = wideShot(96, 96);
   const auto blurred = support::measureSpot(render(renderer, shot, "accumulation", samples(256)).color);
   auto sharp = shot;
   sharp.lens.apertureRadius = 0.0;
-  const auto pinhole = support::measureSpot(render(renderer, sharp, "pinhole", {{"pixelSamples", int64_t{256}}}).color);
+  const auto pinhole =
+      support::measureSpot(render(renderer, sharp, "pinhole", {{"pixelSamples", int64_t{256}}}).color);
   const double sidePx = 0.08 * support::pixelsPerTangent(shot);
   EXPECT_NEAR(pinhole.flux, 0.25 * sidePx * sidePx, 0.01 * pinhole.flux);
   EXPECT_NEAR(blurred.flux, pinhole.flux, 0.005 * pinhole.flux);
@@ -139,10 +145,12 @@ double discRightOf(double t) {
   return (std::acos(t) - t * std::sqrt(1.0 - t * t)) / std::numbers::pi;
 }
 
-// A knife edge before a wall: each pixel is the share of the lens that sees past it. 16 384 views in 256 executions.
+// A knife edge before a wall: each pixel is the share of the lens that sees past it. 8192 views in 128
+// executions.
 TEST_F(Accumulation, ManyViewsOfAKnifeEdgeAreTheAnalyticProfile) {
   engine::Scene scene;
-  support::addFacingQuad(scene, 1.0, -4.0, 0.0, 4.0, 8.0, support::addMaterial(scene, {0.0f, 0.0f, 0.0f, 1.0f}));
+  support::addFacingQuad(scene, 1.0, -4.0, 0.0, 4.0, 8.0,
+                         support::addMaterial(scene, {0.0f, 0.0f, 0.0f, 1.0f}));
   host::Renderer renderer(support::device(), scene, std::nullopt);
   auto shot = wideShot(16, 8);
   shot.lens.apertureRadius = 0.8;
@@ -152,32 +160,33 @@ TEST_F(Accumulation, ManyViewsOfAKnifeEdgeAreTheAnalyticProfile) {
   uint32_t executions = 0;
   host::RenderOptions options;
   options.technique = "accumulation";
-  options.parameters = samples(16384);
+  options.parameters = samples(8192);
   options.progress = [&](uint32_t done, uint32_t total) {
     EXPECT_EQ(done, ++executions);
-    EXPECT_EQ(total, 256u);
+    EXPECT_EQ(total, 128u);
   };
   const auto picture = renderer.render(shot, options).color;
-  EXPECT_EQ(executions, 256u);
+  EXPECT_EQ(executions, 128u);
   double worst = 0.0;
   for (uint32_t y = 0; y < 8; ++y) {
     for (uint32_t x = 0; x < 16; ++x) {
       double expected = 0.0;  // over the pixel's width
       constexpr int kSteps = 64;
-      for (int i = 0; i < kSteps; ++i) expected += discRightOf((8.0 - (x + (i + 0.5) / kSteps)) / radius) / kSteps;
+      for (int i = 0; i < kSteps; ++i)
+        expected += discRightOf((8.0 - (x + (i + 0.5) / kSteps)) / radius) / kSteps;
       worst = std::max(worst, std::abs(static_cast<double>(picture.pixel(x, y)[0]) - expected));
     }
   }
-  std::printf("knife edge, 16384 views: largest error %.2g of 1\n", worst);
-  EXPECT_LT(worst, 5e-4);
+  std::printf("knife edge, 8192 views: largest error %.2g of 1\n", worst);
+  EXPECT_LT(worst, 1e-3);
 }
 
 // Focus outside the scene's depths, and at infinity: the same affine formula, without a special case.
 TEST_F(Accumulation, FocusOutsideTheSceneIsTheThinLensFormulaToo) {
   auto shot = wideShot(96, 96);
   constexpr double kDepth = 4.0;
-  host::Renderer renderer(support::device(), support::lightScene(kDepth, 1.0, support::pixelsPerTangent(shot)),
-                          std::nullopt);
+  host::Renderer renderer(support::device(),
+                          support::lightScene(kDepth, 1.0, support::pixelsPerTangent(shot)), std::nullopt);
   for (const double focus : {0.6, 1.0, 40.0, 1e9, std::numeric_limits<double>::infinity()}) {
     shot.lens.focusDistance = focus;
     shot.lens.apertureRadius = focus < kDepth ? 0.1 : 0.4;

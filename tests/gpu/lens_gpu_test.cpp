@@ -1,9 +1,9 @@
 // shaders/shared/lens.h and aperture.h say the same in GLSL as in C++, value by value, extremes included.
 //
-// Tolerances. The lens is one multiplication and one addition, which Vulkan rounds correctly but may contract: one
-// rounding of the larger operand apart (measured on lavapipe: no difference). The aperture adds sin, cos (2 ulp) and
-// atan, of which lavapipe has 3.5e-6 rad: through the slope of a blade's edge, at most tan(60°), twice for the square,
-// 1.2e-5 of the value. Vignetting is 0 or 1 and may differ only on its edge.
+// Tolerances. The lens is one multiplication and one addition, which Vulkan rounds correctly but may
+// contract: one rounding of the larger operand apart (measured on lavapipe: no difference). The aperture adds
+// sin, cos (2 ulp) and atan, of which lavapipe has 3.5e-6 rad: through the slope of a blade's edge, at most
+// tan(60°), twice for the square, 1.2e-5 of the value. Vignetting is 0 or 1 and may differ only on its edge.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -38,8 +38,10 @@ std::vector<LensCaseResult> onDevice(const std::vector<LensCase>& cases) {
   const rendergraph::AccessState uploaded{.stages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
                                           .access = VK_ACCESS_2_MEMORY_READ_BIT};
   const auto given = graph.importBuffer("cases", {.size = input.size},
-                                        {.buffer = input.buffer.get(), .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-                                         .before = uploaded, .after = uploaded});
+                                        {.buffer = input.buffer.get(),
+                                         .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                                         .before = uploaded,
+                                         .after = uploaded});
   const VkDeviceSize size = cases.size() * sizeof(LensCaseResult);
   auto found = graph.createBuffer("results", {.size = size});
   auto evaluate = graph.addPass("evaluate", rendergraph::PassKind::compute);
@@ -47,7 +49,8 @@ std::vector<LensCaseResult> onDevice(const std::vector<LensCase>& cases) {
   found = evaluate.write(found, Usage::storage);
   evaluate.record([=, count = static_cast<uint32_t>(cases.size())](rendergraph::PassContext& context) {
     const std::array bindings = {rendergraph::storage(given), rendergraph::storage(found)};
-    context.dispatch({.program = kProgram, .bindings = bindings,
+    context.dispatch({.program = kProgram,
+                      .bindings = bindings,
                       .groups = {(count + shared::kLensCaseGroup - 1) / shared::kLensCaseGroup, 1, 1}});
   });
   auto bytes = graph.createBuffer("bytes", {.size = size, .memory = rendergraph::MemoryKind::readback});
@@ -71,7 +74,10 @@ std::vector<LensCase> lensCases() {
     for (const float focus : {0.0f, 1e-9f, 0.3f, 1.0f, 100.0f}) {
       for (const float vergence : {0.0f, 1e-30f, 0.3f, 0.30000004f, 1.0f, 1e4f, -2.0f, -1e10f}) {
         for (const float limit : {1e30f, 20.0f, 0.0f}) {
-          base.lens = {.cocScale = k, .focusVergence = focus, .maxCocRadius = limit, .vergenceScale = 100.0f,
+          base.lens = {.cocScale = k,
+                       .focusVergence = focus,
+                       .maxCocRadius = limit,
+                       .vergenceScale = 100.0f,
                        .vergenceOffset = 0.0f};
           base.vergence = vergence;
           base.depthBuffer = vergence * 0.01f;
@@ -84,8 +90,11 @@ std::vector<LensCase> lensCases() {
   std::uniform_real_distribution<float> unit(-1.0f, 1.0f), exponent(-6.0f, 6.0f);
   const auto any = [&] { return unit(random) * std::pow(10.0f, exponent(random)); };
   for (int i = 0; i < 20000; ++i) {
-    base.lens = {.cocScale = std::abs(any()), .focusVergence = std::abs(any()),
-                 .maxCocRadius = i % 2 == 0 ? 1e30f : std::abs(any()), .vergenceScale = any(), .vergenceOffset = any()};
+    base.lens = {.cocScale = std::abs(any()),
+                 .focusVergence = std::abs(any()),
+                 .maxCocRadius = i % 2 == 0 ? 1e30f : std::abs(any()),
+                 .vergenceScale = any(),
+                 .vergenceOffset = any()};
     base.vergence = any();
     base.depthBuffer = any();
     cases.push_back(base);
@@ -103,7 +112,9 @@ std::vector<LensCase> apertureCases() {
     LensCase c{};
     c.shape = {.bladeCount = kBlades[i % 8],
                .bladeRotation = 3.1415927f * unit(random),
-               .bladeCurvature = i % 3 == 0 ? 0.0f : i % 3 == 1 ? 1.0f : share(random),
+               .bladeCurvature = i % 3 == 0   ? 0.0f
+                                 : i % 3 == 1 ? 1.0f
+                                              : share(random),
                .anamorphicRatio = kRatios[i % 4],
                .opticalVignetting = i % 5 == 0 ? 0.0f : share(random),
                .sphericalAberration = i % 7 == 0 ? 0.0f : unit(random),
@@ -123,7 +134,8 @@ std::vector<LensCase> apertureCases() {
 double ulps(float a, float b, float scale) {
   if (a == b) return 0.0;
   const float size = std::max({std::abs(a), std::abs(b), std::abs(scale), std::numeric_limits<float>::min()});
-  const double step = static_cast<double>(std::nextafter(size, std::numeric_limits<float>::infinity())) - size;
+  const double step =
+      static_cast<double>(std::nextafter(size, std::numeric_limits<float>::infinity())) - size;
   return std::abs(static_cast<double>(a) - static_cast<double>(b)) / step;
 }
 
@@ -138,8 +150,9 @@ TEST_F(LensOnDevice, LensFunctionsGiveTheSameValuesAsInCpp) {
     const auto& c = cases[i];
     const auto expected = shared::evaluateLensCase(c);
     const float product = c.lens.vergenceScale * c.depthBuffer;
-    vergenceUlps = std::max(vergenceUlps, ulps(results[i].vergenceFromDepthBuffer, expected.vergenceFromDepthBuffer,
-                                               std::max(std::abs(product), std::abs(c.lens.vergenceOffset))));
+    vergenceUlps =
+        std::max(vergenceUlps, ulps(results[i].vergenceFromDepthBuffer, expected.vergenceFromDepthBuffer,
+                                    std::max(std::abs(product), std::abs(c.lens.vergenceOffset))));
     radiusUlps = std::max(radiusUlps, ulps(results[i].signedCocRadius, expected.signedCocRadius, 0.0f));
     differing += results[i].signedCocRadius != expected.signedCocRadius ? 1 : 0;
     ASSERT_TRUE(std::isfinite(results[i].signedCocRadius)) << i;
@@ -164,10 +177,13 @@ TEST_F(LensOnDevice, ApertureFunctionsGiveTheSameValuesAsInCpp) {
     const auto expected = shared::evaluateLensCase(c);
     const auto& found = results[i];
     const double size = std::max(static_cast<double>(expected.radiusSquared), 1e-30);
-    const double off = std::abs(static_cast<double>(found.radiusSquared) - static_cast<double>(expected.radiusSquared)) / size;
+    const double off =
+        std::abs(static_cast<double>(found.radiusSquared) - static_cast<double>(expected.radiusSquared)) /
+        size;
     radius = std::max(radius, off);
-    const double ring = std::abs(static_cast<double>(found.ringWeight) - static_cast<double>(expected.ringWeight)) /
-                        (1.0 + 2.0 * size);
+    const double ring =
+        std::abs(static_cast<double>(found.ringWeight) - static_cast<double>(expected.ringWeight)) /
+        (1.0 + 2.0 * size);
     weight = std::max(weight, ring);
     ASSERT_LE(ulps(found.reach, expected.reach, 0.0f), 3.0) << i;
     ASSERT_TRUE(found.vignette == 0.0f || found.vignette == 1.0f) << i;
@@ -182,8 +198,9 @@ TEST_F(LensOnDevice, ApertureFunctionsGiveTheSameValuesAsInCpp) {
     EXPECT_NEAR(x * x + y * y, 1.000001, 1e-6) << i;
     ++edges;
   }
-  std::printf("aperture.h, %zu inputs: %.2g (radius²), %.2g (ring weight) relative, %d on the vignette's edge\n",
-              cases.size(), radius, weight, edges);
+  std::printf(
+      "aperture.h, %zu inputs: %.2g (radius²), %.2g (ring weight) relative, %d on the vignette's edge\n",
+      cases.size(), radius, weight, edges);
   EXPECT_LE(radius, 1.5e-5);
   EXPECT_LE(weight, 1.5e-5);
   EXPECT_GT(shut, 1000) << "the vignette would be idle";

@@ -1,5 +1,5 @@
-// One call of every function of lens.h and aperture.h: inputs and results, for GLSL and C++. Scalars only, so that both
-// agree on the layout.
+// One call of every function of lens.h and aperture.h: inputs and results, for GLSL and C++. Scalars only, so
+// that both agree on the layout.
 #ifndef LENSGRAPH_TEST_LENS_CASES_H
 #define LENSGRAPH_TEST_LENS_CASES_H
 

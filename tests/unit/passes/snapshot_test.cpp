@@ -1,5 +1,5 @@
-// What each technique declares, as text, against the files in snapshots/: a change of nodes, barriers or memory is seen in
-// review. Rewrite the files with LENSGRAPH_UPDATE_SNAPSHOTS=1 in the environment.
+// What each technique declares, as text, against the files in snapshots/: a change of nodes, barriers or
+// memory is seen in review. Rewrite the files with LENSGRAPH_UPDATE_SNAPSHOTS=1 in the environment.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -47,9 +47,8 @@ std::string textOf(const Snapshot& snapshot) {
     inputs.scene = &scene;
   } else {
     const auto host = [&](std::string_view name, VkFormat format) {
-      return graph.importImage(
-          name, {.format = format, .width = 640, .height = 360},
-          {.usage = VK_IMAGE_USAGE_SAMPLED_BIT, .before = kSampled, .after = kSampled});
+      return graph.importImage(name, {.format = format, .width = 640, .height = 360},
+                               {.usage = VK_IMAGE_USAGE_SAMPLED_BIT, .before = kSampled, .after = kSampled});
     };
     inputs.color = host("host.color", VK_FORMAT_R32G32B32A32_SFLOAT);
     inputs.depth = host("host.depth", VK_FORMAT_D32_SFLOAT);
@@ -70,9 +69,14 @@ std::vector<Snapshot> snapshots() {
       {.file = "pinhole_transparency", .technique = "pinhole", .hasTransparency = true},
       {.file = "pinhole_4_samples", .technique = "pinhole", .parameters = {{"pixelSamples", int64_t{4}}}},
       {.file = "accumulation_2_views", .technique = "accumulation", .parameters = twoViews},
-      {.file = "accumulation_2_views_transparency", .technique = "accumulation", .parameters = twoViews,
+      {.file = "accumulation_2_views_transparency",
+       .technique = "accumulation",
+       .parameters = twoViews,
        .hasTransparency = true},
-      {.file = "accumulation_no_aperture", .technique = "accumulation", .parameters = twoViews, .cocScale = 0.0f},
+      {.file = "accumulation_no_aperture",
+       .technique = "accumulation",
+       .parameters = twoViews,
+       .cocScale = 0.0f},
       {.file = "two_pass_filter", .technique = "two_pass_filter"},
   };
 }
@@ -80,7 +84,8 @@ std::vector<Snapshot> snapshots() {
 class Declarations : public testing::TestWithParam<Snapshot> {};
 
 TEST_P(Declarations, AreTheSnapshot) {
-  const auto path = std::filesystem::path(LENSGRAPH_SOURCE_DIR) / "tests/unit/passes/snapshots" / (GetParam().file + ".txt");
+  const auto path = std::filesystem::path(LENSGRAPH_SOURCE_DIR) / "tests/unit/passes/snapshots" /
+                    (GetParam().file + ".txt");
   const std::string text = textOf(GetParam());
   EXPECT_EQ(text, textOf(GetParam())) << "a declaration must not depend on anything but its inputs";
   if (std::getenv("LENSGRAPH_UPDATE_SNAPSHOTS") != nullptr) {
@@ -100,7 +105,8 @@ INSTANTIATE_TEST_SUITE_P(Every, Declarations, testing::ValuesIn(snapshots()),
 TEST(Snapshots, ExistForEveryTechnique) {
   const auto all = snapshots();
   for (const auto& technique : passes::techniques()) {
-    EXPECT_TRUE(std::any_of(all.begin(), all.end(), [&](const auto& one) { return one.technique == technique.name; }))
+    EXPECT_TRUE(
+        std::any_of(all.begin(), all.end(), [&](const auto& one) { return one.technique == technique.name; }))
         << technique.name << " has no snapshot";
   }
 }
