@@ -6,7 +6,6 @@
 #include <array>
 
 #include "shaders/shared/emit.h"
-#include "shaders/shared/statistics.h"
 #include "shaders/shared/transparency.h"
 #include "spirv/transparency/composite_comp.h"
 
@@ -88,12 +87,15 @@ void declareComposite(Graph& graph, const DofInputs& inputs, const std::string& 
 
 }  // namespace
 
-Buffer declareStatistics(Graph& graph, const std::string& prefix) {
-  auto statistics = graph.createBuffer(prefix + ".statistics", {.size = sizeof(shared::FrameStatistics)});
-  auto clear = graph.addPass(prefix + ".clear_statistics", PassKind::transfer);
-  statistics = clear.write(statistics, Usage::transferDestination);
-  clear.record([statistics](PassContext& context) { context.fillBuffer(statistics, 0); });
-  return statistics;
+std::vector<Problem> checkSceneInputs(const DofInputs& inputs) {
+  std::vector<Problem> problems;
+  if (inputs.scene == nullptr || !inputs.scene->record) {
+    problems.push_back({"", "the technique draws a scene, and there is none", "set DofInputs::scene"});
+  }
+  if (inputs.extent.width == 0 || inputs.extent.height == 0) {
+    problems.push_back({"", "the picture has no pixels", "set DofInputs::extent"});
+  }
+  return problems;
 }
 
 SceneViewOutputs declareSceneView(Graph& graph, const DofInputs& inputs, const std::string& prefix,

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "passes/dof_io.h"
+#include "passes/parameters.h"
 #include "shaders/shared/view.h"
 
 namespace passes {
@@ -19,8 +21,8 @@ struct SceneViewOutputs {
 inline constexpr VkFormat kViewColorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
 inline constexpr VkFormat kViewDepthFormat = VK_FORMAT_D32_SFLOAT;
 
-/// A zeroed FrameStatistics buffer, by a fill pass named `prefix`.clear_statistics.
-rendergraph::Buffer declareStatistics(rendergraph::Graph& graph, const std::string& prefix);
+/// What is wrong with the inputs of a technique that draws the scene; empty when nothing is.
+std::vector<Problem> checkSceneInputs(const DofInputs& inputs);
 
 /// Declares `prefix`.opaque and, when the scene has transparency, `prefix`.clear_lists, .transparent and .composite.
 /// Precondition: inputs.scene is set and outlives the recording.

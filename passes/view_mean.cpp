@@ -6,6 +6,7 @@
 
 #include "passes/lens_view.h"
 #include "passes/scene_view.h"
+#include "passes/statistics.h"
 #include "shaders/shared/accumulation.h"
 #include "spirv/accumulation/accumulate_comp.h"
 #include "spirv/accumulation/resolve_comp.h"

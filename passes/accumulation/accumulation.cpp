@@ -3,7 +3,9 @@
 
 #include <vector>
 
+#include "passes/make_technique.h"
 #include "passes/pinhole/pinhole.h"
+#include "passes/scene_view.h"
 #include "passes/view_mean.h"
 
 namespace passes::accumulation {
@@ -40,6 +42,8 @@ std::span<const Field<Parameters>> fields() {
   return table;
 }
 
+std::vector<Problem> validate(const Parameters&, const DofInputs& inputs) { return checkSceneInputs(inputs); }
+
 uint32_t frameCount(const Parameters& parameters, const DofInputs& inputs) {
   if (inputs.lens.cocScale == 0.0f) return pinhole::frameCount(withoutLens(parameters), inputs);
   return passes::frameCount(meanOf(parameters, inputs.aperture));
@@ -53,20 +57,10 @@ DofOutputs declare(rendergraph::Graph& graph, const DofInputs& inputs, const Par
 }
 
 Technique technique() {
-  return {.name = "accumulation",
-          .title = "Accumulation (reference)",
-          .source = "Haeberli & Akeley 1990, The accumulation buffer; Cook 1984, Distributed ray tracing",
-          .input = TechniqueInput::scene,
-          .parameters = describe<Parameters>(fields()),
-          .validate = [](const ParameterSet&, const DofInputs&) { return std::vector<Problem>{}; },
-          .declare =
-              [](rendergraph::Graph& graph, const DofInputs& inputs, const ParameterSet& set) {
-                return declare(graph, inputs, fromSet<Parameters>(set, fields()));
-              },
-          .frameCount =
-              [](const ParameterSet& set, const DofInputs& inputs) {
-                return frameCount(fromSet<Parameters>(set, fields()), inputs);
-              }};
+  return makeTechnique<fields, validate, declare, frameCount>(
+      {"accumulation", "Accumulation (reference)",
+       "Haeberli & Akeley 1990, The accumulation buffer; Cook 1984, Distributed ray tracing"},
+      TechniqueInput::scene);
 }
 
 }  // namespace passes::accumulation

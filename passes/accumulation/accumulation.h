@@ -5,6 +5,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "passes/dof_io.h"
 #include "passes/lens_samples.h"
@@ -22,6 +23,10 @@ struct Parameters {
 };
 
 std::span<const Field<Parameters>> fields();
+/// What is wrong with inputs; empty when nothing is.
+std::vector<Problem> validate(const Parameters& parameters, const DofInputs& inputs);
+
+/// Executions of the graph that make the finished picture.
 uint32_t frameCount(const Parameters& parameters, const DofInputs& inputs);
 
 /// Aperture 0 gives the pinhole picture of the same pixel samples, bit for bit.

@@ -4,8 +4,10 @@
 #include <vector>
 
 #include "passes/lens_view.h"
+#include "passes/make_technique.h"
 #include "passes/sanitize.h"
 #include "passes/scene_view.h"
+#include "passes/statistics.h"
 #include "passes/view_mean.h"
 
 namespace passes::pinhole {
@@ -35,6 +37,8 @@ std::span<const Field<Parameters>> fields() {
   return table;
 }
 
+std::vector<Problem> validate(const Parameters&, const DofInputs& inputs) { return checkSceneInputs(inputs); }
+
 uint32_t frameCount(const Parameters& parameters, const DofInputs&) {
   return parameters.pixelSamples == 1 ? 1 : passes::frameCount(meanOf(parameters));
 }
@@ -55,20 +59,10 @@ DofOutputs declare(rendergraph::Graph& graph, const DofInputs& inputs, const Par
 }
 
 Technique technique() {
-  return {.name = "pinhole",
-          .title = "Pinhole",
-          .source = "no lens",
-          .input = TechniqueInput::scene,
-          .parameters = describe<Parameters>(fields()),
-          .validate = [](const ParameterSet&, const DofInputs&) { return std::vector<Problem>{}; },
-          .declare =
-              [](rendergraph::Graph& graph, const DofInputs& inputs, const ParameterSet& set) {
-                return declare(graph, inputs, fromSet<Parameters>(set, fields()));
-              },
-          .frameCount =
-              [](const ParameterSet& set, const DofInputs& inputs) {
-                return frameCount(fromSet<Parameters>(set, fields()), inputs);
-              }};
+  return makeTechnique<fields, validate, declare, frameCount>(
+      {"pinhole", "Pinhole",
+       "no lens"},
+      TechniqueInput::scene);
 }
 
 }  // namespace passes::pinhole

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "passes/dof_io.h"
 #include "passes/lens_samples.h"
@@ -18,6 +19,10 @@ struct Parameters {
 };
 
 std::span<const Field<Parameters>> fields();
+/// What is wrong with inputs; empty when nothing is.
+std::vector<Problem> validate(const Parameters& parameters, const DofInputs& inputs);
+
+/// Executions of the graph that make the finished picture.
 uint32_t frameCount(const Parameters& parameters, const DofInputs& inputs);
 
 /// Also gives the depth of the pixels' centres. Precondition: inputs.scene is set and outlives the recording.

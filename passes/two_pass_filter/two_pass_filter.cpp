@@ -5,6 +5,8 @@
 #include <array>
 #include <string>
 
+#include "passes/make_technique.h"
+#include "passes/statistics.h"
 #include "rendergraph/error.h"
 #include "shaders/shared/statistics.h"
 #include "shaders/shared/two_pass_filter.h"
@@ -79,15 +81,6 @@ void requireSize(const Graph& graph, Image image, const char* name, VkExtent2D e
                   text(extent.width, extent.height),
         .remedy = "give colour and depth at full resolution",
         .where = std::source_location::current()}});
-}
-
-Buffer declareStatistics(Graph& graph) {
-  Buffer statistics =
-      graph.createBuffer("two_pass_filter.statistics", {.size = sizeof(shared::FrameStatistics)});
-  Pass pass = graph.addPass("two_pass_filter.clear_statistics", PassKind::transfer);
-  statistics = pass.write(statistics, Usage::transferDestination);
-  pass.record([statistics](PassContext& context) { context.fillBuffer(statistics, 0u); });
-  return statistics;
 }
 
 Image declarePrepare(Graph& graph, const DofInputs& inputs, const Frame& frame, Buffer& statistics) {
@@ -209,7 +202,7 @@ DofOutputs declare(Graph& graph, const DofInputs& inputs, const Parameters& para
   requireSize(graph, inputs.depth, "depth", inputs.extent);
 
   const Frame frame = frameOf(inputs, parameters);
-  outputs.statistics = declareStatistics(graph);
+  outputs.statistics = declareStatistics(graph, "two_pass_filter");
   const Image prepared = declarePrepare(graph, inputs, frame, outputs.statistics);
   const Buffer tileRadii = declareTiles(graph, frame, prepared, outputs.statistics);
   const Buffer tileTaps = declareReach(graph, frame, tileRadii);
@@ -218,21 +211,13 @@ DofOutputs declare(Graph& graph, const DofInputs& inputs, const Parameters& para
   return outputs;
 }
 
+uint32_t frameCount(const Parameters&, const DofInputs&) { return 1; }
+
 Technique technique() {
-  return {.name = "two_pass_filter",
-          .title = "Two-pass filter",
-          .source = "Zhou, Chen, Pullen 2007, Accurate Depth of Field Simulation in Real Time",
-          .input = TechniqueInput::image,
-          .parameters = describe<Parameters>(fields()),
-          .validate =
-              [](const ParameterSet& set, const DofInputs& inputs) {
-                return validate(fromSet<Parameters>(set, fields()), inputs);
-              },
-          .declare =
-              [](Graph& graph, const DofInputs& inputs, const ParameterSet& set) {
-                return declare(graph, inputs, fromSet<Parameters>(set, fields()));
-              },
-          .frameCount = [](const ParameterSet&, const DofInputs&) -> uint32_t { return 1; }};
+  return makeTechnique<fields, validate, declare, frameCount>(
+      {"two_pass_filter", "Two-pass filter",
+       "Zhou, Chen, Pullen 2007, Accurate Depth of Field Simulation in Real Time"},
+      TechniqueInput::image);
 }
 
 }  // namespace passes::two_pass_filter

@@ -28,6 +28,9 @@ std::vector<Problem> validate(const Parameters& parameters, const DofInputs& inp
 /// size than inputs.extent.
 DofOutputs declare(rendergraph::Graph& graph, const DofInputs& inputs, const Parameters& parameters);
 
+/// Executions of the graph that make the finished picture: 1.
+uint32_t frameCount(const Parameters& parameters, const DofInputs& inputs);
+
 /// The registry's entry.
 Technique technique();
 

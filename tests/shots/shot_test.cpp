@@ -2,8 +2,8 @@
 // Skipped where the folder of shots is absent: its data are not part of this project.
 #include <gmock/gmock.h>
 
+#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 
 #include "engine/image_io.h"
@@ -24,9 +24,15 @@ struct Row {
   double accumulationFloorDb;
 };
 
-// The floors are the house's targets (35 and 40 dB), not what is reached; reached figures are in docs/results.
-constexpr Row kRows[] = {{"railings", 35.0, 40.0},   {"crossing", 35.0, 40.0}, {"foliage", 35.0, 40.0},
-                         {"glass", 35.0, 40.0},      {"models_dev", 35.0, 40.0}, {"sharp", 35.0, 40.0}};
+// dB reached on lavapipe (64 pixel samples; 256 lens samples), less a half. The house asks for 35 and 40.
+constexpr Row kRows[] = {{"railings", 58.0, 50.3}, {"crossing", 54.2, 52.9}, {"foliage", 49.3, 48.0},
+                         {"glass", 66.1, 62.8}, {"models_dev", 54.5, 51.2}, {"sharp", 55.5, 61.4}};
+
+/// Lens samples of the accumulation: 256, to be quick; LENSGRAPH_SHOT_SAMPLES=1024 makes the table of docs/results.
+int64_t lensSamples() {
+  const char* wanted = std::getenv("LENSGRAPH_SHOT_SAMPLES");
+  return wanted != nullptr ? std::strtoll(wanted, nullptr, 10) : 256;
+}
 
 class Shots : public support::GpuTest, public testing::WithParamInterface<Row> {
  protected:
@@ -58,10 +64,10 @@ TEST_P(Shots, PinholeEqualsTheRayTracedPicture) {
 }
 
 TEST_P(Shots, AccumulationEqualsTheRayTracedPicture) {
-  const auto rendering = render(*renderer, shot, "accumulation", {{"lensSamples", int64_t{1024}}});
+  const auto rendering = render(*renderer, shot, "accumulation", {{"lensSamples", lensSamples()}});
   const auto metrics = against(rendering.color, "dof.exr");
   report("accumulation", metrics, rendering);
-  EXPECT_GE(metrics.psnr, GetParam().accumulationFloorDb);
+  EXPECT_GE(metrics.psnr, lensSamples() >= 256 ? GetParam().accumulationFloorDb : 40.0);
 }
 
 TEST_P(Shots, TwoPassFilterRendersAndIsFinite) {
