@@ -178,7 +178,9 @@ TEST_F(Accumulation, ManyViewsOfAKnifeEdgeAreTheAnalyticProfile) {
     }
   }
   std::printf("knife edge, 8192 views: largest error %.2g of 1\n", worst);
-  EXPECT_LT(worst, 1e-3);
+  // Stratified points leave an error only in the √N strata that the edge crosses: of the order N^-3/4.
+  // Random ones would leave N^-1/2, ten times that.
+  EXPECT_LT(worst, 2.0 * std::pow(8192.0, -0.75));
 }
 
 // Focus outside the scene's depths, and at infinity: the same affine formula, without a special case.
