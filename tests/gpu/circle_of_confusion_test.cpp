@@ -1,51 +1,24 @@
-// The blur of a point light, measured in the picture, against the thin-lens formula; and the orientation of the bokeh.
+// The blur of a point light, measured in the picture, against the thin-lens formula; and the orientation of
+// the bokeh.
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "tests/support/gpu/gpu_test.h"
+#include "tests/support/gpu/spot.h"
 #include "tests/support/gpu/test_scenes.h"
 
 namespace {
 
 using support::render;
+using support::Spot;
 
 constexpr int kSide = 96;
 
-struct Spot {
-  double x = 0.0, y = 0.0;     ///< Centroid, px.
-  double radius = 0.0;         ///< Of the uniform disc with the same second moment, px.
-  double extent = 0.0;         ///< Distance of the farthest lit pixel centre from the centroid, px.
-};
-
-/// A uniform disc of radius R has mean squared distance R²/2 from its centre.
-Spot measure(const engine::FloatImage& picture) {
-  double sum = 0.0, x = 0.0, y = 0.0, squared = 0.0;
-  const auto each = [&](auto&& visit) {
-    for (uint32_t row = 0; row < picture.height; ++row) {
-      for (uint32_t column = 0; column < picture.width; ++column) {
-        visit(column + 0.5, row + 0.5, double(picture.pixel(column, row)[0]));
-      }
-    }
-  };
-  each([&](double px, double py, double value) { sum += value, x += px * value, y += py * value; });
-  Spot spot{x / sum, y / sum, 0.0, 0.0};
-  each([&](double px, double py, double value) {
-    const double distance = std::hypot(px - spot.x, py - spot.y);
-    squared += distance * distance * value;
-    if (value > 0.0) spot.extent = std::max(spot.extent, distance);
-  });
-  spot.radius = std::sqrt(2.0 * squared / sum);
-  return spot;
-}
-
 /// A square light that covers `sidePx` pixels in the pinhole picture, centred.
 host::Renderer lightAt(double depth, double sidePx, double pixelsPerTangent) {
-  engine::Scene scene;
-  const double half = 0.5 * sidePx * depth / pixelsPerTangent;
-  support::addFacingQuad(scene, depth, 0.0, 0.0, half, half, support::addMaterial(scene, glm::vec4(100.0f, 100.0f, 100.0f, 1.0f)));
-  return host::Renderer(support::device(), scene, std::nullopt);
+  return host::Renderer(support::device(), support::lightScene(depth, sidePx, pixelsPerTangent),
+                        std::nullopt);
 }
 
 class CircleOfConfusion : public support::GpuTest {};
@@ -54,23 +27,27 @@ TEST_F(CircleOfConfusion, OfAPointLightIsTheThinLensFormula) {
   auto shot = support::smallShot(kSide, kSide);
   shot.lens.focusDistance = 2.0;
   shot.lens.apertureRadius = 0.2;
-  const double s = 0.5 * kSide / std::tan(0.5 * shot.camera.fovyDeg * std::numbers::pi / 180.0);
+  const double s = support::pixelsPerTangent(shot);
   // Both sides of focus, from 1.01 near planes away to practically infinity.
   const double nearPlane = 0.8;
   shot.camera.nearPlane = nearPlane;
   constexpr double kSidePx = 1.0;
-  for (const double depth : {1.01 * nearPlane, 1.0, 1.2, 1.4, 1.6, 1.8, 1.9, 2.1, 2.3, 2.7, 3.5, 6.0, 20.0, 1e3, 1e6}) {
+  for (const double depth :
+       {1.01 * nearPlane, 1.0, 1.2, 1.4, 1.6, 1.8, 1.9, 2.1, 2.3, 2.7, 3.5, 6.0, 20.0, 1e3, 1e6}) {
     auto renderer = lightAt(depth, kSidePx, s);
     const auto picture = render(renderer, shot, "accumulation", {{"lensSamples", int64_t{256}}});
-    const double expected = s * shot.lens.apertureRadius * std::abs(1.0 / shot.lens.focusDistance - 1.0 / depth);
-    // The light and the pixel are squares of 1 px: each adds 1/6 px² to the mean squared distance, in both axes.
-    const Spot spot = measure(picture.color);
+    const double expected =
+        s * shot.lens.apertureRadius * std::abs(1.0 / shot.lens.focusDistance - 1.0 / depth);
+    // The light and the pixel are squares of 1 px: each adds 1/6 px² to the mean squared distance, in both
+    // axes.
+    const Spot spot = support::measureSpot(picture.color);
     const double radius = std::sqrt(std::max(0.0, spot.radius * spot.radius - 2.0 * 2.0 / 6.0));
     EXPECT_NEAR(radius, expected, std::max(0.01 * expected, 0.25)) << "depth " << depth;
     EXPECT_NEAR(spot.x, 0.5 * kSide, 0.05) << "depth " << depth;
     EXPECT_NEAR(spot.y, 0.5 * kSide, 0.05) << "depth " << depth;
     EXPECT_LE(spot.extent, expected + 2.2) << "depth " << depth;
-    RecordProperty("depth_" + std::to_string(depth), std::to_string(radius) + " px of " + std::to_string(expected));
+    RecordProperty("depth_" + std::to_string(depth),
+                   std::to_string(radius) + " px of " + std::to_string(expected));
     std::printf("depth %10.4g m: measured %8.4f px, thin lens %8.4f px\n", depth, radius, expected);
   }
 }
@@ -78,15 +55,16 @@ TEST_F(CircleOfConfusion, OfAPointLightIsTheThinLensFormula) {
 TEST_F(CircleOfConfusion, VanishesAtFocusAndDoesNotDependOnItElsewhere) {
   auto shot = support::smallShot(kSide, kSide);
   shot.lens.apertureRadius = 0.2;
-  const double s = 0.5 * kSide / std::tan(0.5 * shot.camera.fovyDeg * std::numbers::pi / 180.0);
+  const double s = support::pixelsPerTangent(shot);
   auto renderer = lightAt(2.0, 3.0, s);
   const auto picture = render(renderer, shot, "accumulation", {{"lensSamples", int64_t{64}}}).color;
-  EXPECT_LT(measure(picture).extent, 3.0);
+  EXPECT_LT(support::measureSpot(picture).extent, 3.0);
 }
 
-/// Third moment of the spot along y: positive when its mass trails upwards (y is down), as an upright triangle's does not.
+/// Third moment of the spot along y: positive when its mass trails upwards (y is down), as an upright
+/// triangle's does not.
 double skewness(const engine::FloatImage& picture) {
-  const Spot spot = measure(picture);
+  const Spot spot = support::measureSpot(picture);
   double third = 0.0, sum = 0.0;
   for (uint32_t y = 0; y < picture.height; ++y) {
     for (uint32_t x = 0; x < picture.width; ++x) {
@@ -102,7 +80,7 @@ TEST_F(CircleOfConfusion, TriangularApertureIsUprightBehindFocusAndInvertedInFro
   auto shot = support::smallShot(kSide, kSide);
   shot.lens.apertureRadius = 0.2;
   shot.lens.bladeCount = 3;
-  const double s = 0.5 * kSide / std::tan(0.5 * shot.camera.fovyDeg * std::numbers::pi / 180.0);
+  const double s = support::pixelsPerTangent(shot);
   auto farLight = lightAt(20.0, 1.0, s);
   auto nearLight = lightAt(1.1, 1.0, s);
   const auto farPicture = render(farLight, shot, "accumulation", {{"lensSamples", int64_t{256}}}).color;
