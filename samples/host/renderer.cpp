@@ -17,6 +17,7 @@
 #include "engine/scene_renderer.h"
 #include "engine/visible_range.h"
 #include "passes/pinhole/pinhole.h"
+#include "samples/host/read_back.h"
 #include "samples/host/shot_scene.h"
 
 namespace host {
@@ -26,16 +27,9 @@ using passes::DofInputs;
 using passes::DofOutputs;
 using rendergraph::Buffer;
 using rendergraph::Graph;
-using rendergraph::Image;
-using rendergraph::MemoryKind;
 using rendergraph::PassContext;
-using rendergraph::PassKind;
-using rendergraph::Usage;
 
 constexpr float kNothingHit = 1e10f;  // m; the depth of the background in pictures
-
-constexpr rendergraph::AccessState kHostRead{VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT,
-                                             VK_IMAGE_LAYOUT_UNDEFINED};
 
 [[noreturn]] void throwProblem(const passes::Problem& problem, std::string_view technique) {
   throw engine::Error(engine::ErrorParts{.file = {},
@@ -56,47 +50,6 @@ const passes::Technique& techniqueOf(const RenderOptions& options) {
   const auto problems = passes::check(options.parameters, technique->parameters);
   if (!problems.empty()) throwProblem(problems.front(), technique->name);
   return *technique;
-}
-
-/// Adds a copy of an image into a host-readable buffer and exports that.
-Buffer readBack(Graph& graph, Image image, const char* name) {
-  const auto& desc = graph.desc(image);
-  const VkDeviceSize size = VkDeviceSize{desc.width} * desc.height * rendergraph::texelSize(desc.format);
-  Buffer buffer = graph.createBuffer(name, {.size = size, .memory = MemoryKind::readback});
-  auto pass = graph.addPass(std::string(name) + ".copy", PassKind::transfer);
-  pass.read(image, Usage::transferSource);
-  buffer = pass.write(buffer, Usage::transferDestination);
-  pass.record([image, buffer](PassContext& context) { context.copyImageToBuffer(image, buffer); });
-  graph.exportBuffer(buffer, kHostRead);
-  return buffer;
-}
-
-Buffer readBack(Graph& graph, Buffer from, const char* name) {
-  const VkDeviceSize size = graph.desc(from).size;
-  Buffer buffer = graph.createBuffer(name, {.size = size, .memory = MemoryKind::readback});
-  auto pass = graph.addPass(std::string(name) + ".copy", PassKind::transfer);
-  pass.read(from, Usage::transferSource);
-  buffer = pass.write(buffer, Usage::transferDestination);
-  pass.record([from, buffer, size](PassContext& context) { context.copyBuffer(from, buffer, size); });
-  graph.exportBuffer(buffer, kHostRead);
-  return buffer;
-}
-
-engine::FloatImage imageFrom(std::span<const std::byte> bytes, VkExtent2D extent, uint32_t channels) {
-  engine::FloatImage image(extent.width, extent.height, channels);
-  std::memcpy(image.samples.data(), bytes.data(), image.samples.size() * sizeof(float));
-  return image;
-}
-
-double rootMeanSquare(std::span<const std::byte> bytes) {
-  const std::size_t count = bytes.size() / sizeof(float);
-  double sum = 0.0;
-  for (std::size_t i = 0; i < count; ++i) {
-    float value = 0.0f;
-    std::memcpy(&value, bytes.data() + i * sizeof value, sizeof value);
-    sum += static_cast<double>(value) * static_cast<double>(value);
-  }
-  return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(count, 1)));
 }
 
 /// What of a frame comes back to the host; default-made handles are not asked for.

@@ -22,6 +22,7 @@ struct Row {
   const char* name;
   double pinholeFloorDb;
   double accumulationFloorDb;
+  friend void PrintTo(const Row& row, std::ostream* out) { *out << row.name; }
 };
 
 // dB reached on lavapipe (64 pixel samples; 256 lens samples), less a half. The house asks for 35 and 40.
