@@ -87,8 +87,7 @@ Camera cameraFromScene(const Scene& scene, std::string_view name) {
   }
   const glm::dmat4& world = found->worldFromCamera;
   // Columns may be scaled, sheared or mirrored; the view keeps backward, then up, and is right-handed again.
-  const glm::dvec3 back =
-      direction("camera.gltfCamera", glm::dvec3(world[2]), "has a transform without a direction");
+  const glm::dvec3 back = direction("camera.gltfCamera", glm::dvec3(world[2]), "has a transform without a direction");
   const glm::dvec3 upHint =
       direction("camera.gltfCamera", glm::dvec3(world[1]), "has a transform without an up direction");
   const glm::dvec3 side = glm::cross(upHint, back);

@@ -14,8 +14,7 @@
 
 namespace engine {
 
-inline constexpr double kDefaultNearPlane =
-    0.01;  ///< m. Below it reversed depth still has full float precision.
+inline constexpr double kDefaultNearPlane = 0.01;  ///< m. Below it reversed depth still has full float precision.
 
 struct Camera {
   glm::dmat4 viewFromWorld{1.0};         ///< Rigid: rotation and translation, no scale.

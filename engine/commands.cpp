@@ -30,8 +30,8 @@ void transition(const Device& device, VkCommandBuffer commands, const GpuImage& 
 }
 
 GpuBuffer stage(const Device& device, std::span<const std::byte> bytes) {
-  auto staging = makeBuffer(device, bytes.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-                            rendergraph::MemoryKind::upload, "staging");
+  auto staging =
+      makeBuffer(device, bytes.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, rendergraph::MemoryKind::upload, "staging");
   std::memcpy(staging.block.address, bytes.data(), bytes.size());
   return staging;
 }
@@ -119,9 +119,9 @@ void upload(const Device& device, const GpuImage& target, std::span<const std::b
     device.vk().vkCmdCopyBufferToImage(commands, staging.buffer.get(), target.image.get(),
                                        VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, static_cast<uint32_t>(regions.size()),
                                        regions.data());
-    transition(device, commands, target, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-               VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_PIPELINE_STAGE_2_COPY_BIT,
-               VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_SHADER_READ_BIT);
+    transition(device, commands, target, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+               VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+               VK_ACCESS_2_SHADER_READ_BIT);
   });
 }
 

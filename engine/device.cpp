@@ -43,11 +43,16 @@ const NeededFeature kNeeded[] = {
 
 const char* typeName(VkPhysicalDeviceType type) {
   switch (type) {
-    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return "discrete";
-    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return "integrated";
-    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: return "virtual";
-    case VK_PHYSICAL_DEVICE_TYPE_CPU: return "cpu";
-    default: return "other";
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+      return "discrete";
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+      return "integrated";
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+      return "virtual";
+    case VK_PHYSICAL_DEVICE_TYPE_CPU:
+      return "cpu";
+    default:
+      return "other";
   }
 }
 
@@ -87,7 +92,8 @@ DeviceDescription describe(VkPhysicalDevice physical) {
   for (const auto& needed : kNeeded) {
     if (needed.in(features) == VK_FALSE) description.missing.emplace_back(needed.name);
   }
-  if (findQueueFamily(physical) < 0) description.missing.emplace_back("a queue for graphics and compute with timestamps");
+  if (findQueueFamily(physical) < 0)
+    description.missing.emplace_back("a queue for graphics and compute with timestamps");
   return description;
 }
 
@@ -158,7 +164,8 @@ void Device::choose(const std::string& select) {
   }
   if (physical_ != VK_NULL_HANDLE) return;
   if (devices.empty()) throwDeviceError("no Vulkan device found", "install the package mesa-vulkan-drivers");
-  if (!refused.empty()) throwDeviceError("no usable Vulkan device: " + refused, "update the driver, or use another device");
+  if (!refused.empty())
+    throwDeviceError("no usable Vulkan device: " + refused, "update the driver, or use another device");
   throw Error({.file = {},  // bad input, not a failure: the name is the user's
                .field = "device",
                .reason = "none matches '" + select + "'",

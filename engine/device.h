@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/vulkan_instance.h"
 #include "engine/vulkan_api.h"
+#include "engine/vulkan_instance.h"
 
 namespace engine {
 
@@ -18,9 +18,9 @@ struct DeviceOptions {
 };
 
 struct DeviceDescription {
-  std::string name;      ///< As the driver says it.
-  std::string type;      ///< "discrete", "integrated", "virtual", "cpu", "other".
-  std::string driver;    ///< Driver name and version.
+  std::string name;                  ///< As the driver says it.
+  std::string type;                  ///< "discrete", "integrated", "virtual", "cpu", "other".
+  std::string driver;                ///< Driver name and version.
   std::vector<std::string> missing;  ///< Features we need that it lacks; empty when usable.
 };
 

@@ -23,7 +23,9 @@ struct Level {
   }
 };
 
-float safe(float value) { return std::isfinite(value) ? std::clamp(value, 0.0f, kLargestHalf) : 0.0f; }
+float safe(float value) {
+  return std::isfinite(value) ? std::clamp(value, 0.0f, kLargestHalf) : 0.0f;
+}
 
 Level firstLevel(const FloatImage& map) {
   Level level{map.width, map.height, {}};
@@ -68,8 +70,8 @@ std::array<glm::vec3, 9> project(const Level& map) {
     for (uint32_t x = 0; x < map.width; ++x) {
       const double azimuth = 2.0 * pi * ((x + 0.5) / map.width - 0.5);
       const glm::dvec3 n(std::sin(theta) * std::sin(azimuth), std::cos(theta), -std::sin(theta) * std::cos(azimuth));
-      const double basis[9] = {1.0,       n.y,       n.z,           n.x, n.x * n.y, n.y * n.z, 3.0 * n.z * n.z - 1.0,
-                               n.x * n.z, n.x * n.x - n.y * n.y};
+      const double basis[9] = {
+          1.0, n.y, n.z, n.x, n.x * n.y, n.y * n.z, 3.0 * n.z * n.z - 1.0, n.x * n.z, n.x * n.x - n.y * n.y};
       for (int i = 0; i < 9; ++i) sum[i] += glm::dvec3(map.at(x, y)) * (basis[i] * solidAngle);
     }
   }

@@ -12,8 +12,8 @@
 namespace engine {
 
 struct Environment {
-  rendergraph::ImageDesc desc;       ///< RGBA16F with a full mip chain.
-  std::vector<std::byte> texels;     ///< All mips, largest first, tightly packed.
+  rendergraph::ImageDesc desc;    ///< RGBA16F with a full mip chain.
+  std::vector<std::byte> texels;  ///< All mips, largest first, tightly packed.
   /// Irradiance / π as nine coefficients of 1, y, z, x, xy, yz, 3z²−1, xz, x²−y² (world space), basis constants and
   /// cosine lobe folded in (Ramamoorthi & Hanrahan 2001).
   std::array<glm::vec3, 9> irradiance;

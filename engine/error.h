@@ -14,9 +14,8 @@ enum class ErrorKind {
 
 /// What went wrong, in parts. Every part but the reason may be empty.
 struct ErrorParts {
-  std::string file;  ///< Path as the user gave it.
-  std::string
-      field;  ///< Place inside the file, such as "meshes[2].primitives[0].indices", or a parameter's name.
+  std::string file;    ///< Path as the user gave it.
+  std::string field;   ///< Place inside the file, such as "meshes[2].primitives[0].indices", or a parameter's name.
   std::string reason;  ///< What is wrong, in words, with the offending value.
   std::string remedy;  ///< What to do about it, where something can be done.
 };

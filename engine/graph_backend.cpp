@@ -36,11 +36,15 @@ GraphBackend::GraphBackend(const Device& device)
 
 GraphBackend::~GraphBackend() = default;
 
-uint32_t GraphBackend::maxImageSize() const { return device_.limits().maxImageDimension2D; }
+uint32_t GraphBackend::maxImageSize() const {
+  return device_.limits().maxImageDimension2D;
+}
 uint32_t GraphBackend::maxImageLayers() const {
   return std::min(device_.limits().maxImageArrayLayers, device_.limits().maxFramebufferLayers);
 }
-VkDeviceSize GraphBackend::maxBufferSize() const { return device_.limits().maxStorageBufferRange; }
+VkDeviceSize GraphBackend::maxBufferSize() const {
+  return device_.limits().maxStorageBufferRange;
+}
 
 rendergraph::MemoryRequirements GraphBackend::requirements(const rendergraph::ImageDesc& desc,
                                                            VkImageUsageFlags usage) const {
@@ -67,8 +71,8 @@ rendergraph::MemoryRequirements GraphBackend::requirements(const rendergraph::Bu
           requirements.memoryTypeBits};
 }
 
-rendergraph::HeapId GraphBackend::createHeap(VkDeviceSize size, uint32_t memoryTypeBits,
-                                             rendergraph::MemoryKind memory, std::string_view name) {
+rendergraph::HeapId GraphBackend::createHeap(VkDeviceSize size, uint32_t memoryTypeBits, rendergraph::MemoryKind memory,
+                                             std::string_view name) {
   try {
     heaps_.emplace(nextHeap_, allocateMemory(device_, size, memoryTypeBits, memory));
   } catch (const std::exception& error) {
@@ -82,23 +86,28 @@ rendergraph::HeapId GraphBackend::createHeap(VkDeviceSize size, uint32_t memoryT
   return nextHeap_++;
 }
 
-void GraphBackend::destroyHeap(rendergraph::HeapId heap) { heaps_.erase(heap); }
-void* GraphBackend::hostAddress(rendergraph::HeapId heap) { return heaps_.at(heap).address; }
+void GraphBackend::destroyHeap(rendergraph::HeapId heap) {
+  heaps_.erase(heap);
+}
+void* GraphBackend::hostAddress(rendergraph::HeapId heap) {
+  return heaps_.at(heap).address;
+}
 
-VkImage GraphBackend::createImage(const rendergraph::ImageDesc& desc, VkImageUsageFlags usage,
-                                  rendergraph::HeapId heap, VkDeviceSize offset, std::string_view name) {
+VkImage GraphBackend::createImage(const rendergraph::ImageDesc& desc, VkImageUsageFlags usage, rendergraph::HeapId heap,
+                                  VkDeviceSize offset, std::string_view name) {
   const auto info = imageCreateInfo(desc, usage);
   VkImage image = VK_NULL_HANDLE;
   require(device_.vk().vkCreateImage(device_.handle(), &info, nullptr, &image), "vkCreateImage", name);
-  const VkResult bound =
-      device_.vk().vkBindImageMemory(device_.handle(), image, heaps_.at(heap).memory.get(), offset);
+  const VkResult bound = device_.vk().vkBindImageMemory(device_.handle(), image, heaps_.at(heap).memory.get(), offset);
   if (bound != VK_SUCCESS) destroyImage(image);
   require(bound, "vkBindImageMemory", name);
   device_.setName(VK_OBJECT_TYPE_IMAGE, reinterpret_cast<uint64_t>(image), std::string(name));
   return image;
 }
 
-void GraphBackend::destroyImage(VkImage image) { device_.vk().vkDestroyImage(device_.handle(), image, nullptr); }
+void GraphBackend::destroyImage(VkImage image) {
+  device_.vk().vkDestroyImage(device_.handle(), image, nullptr);
+}
 
 VkBuffer GraphBackend::createBuffer(const rendergraph::BufferDesc& desc, VkBufferUsageFlags usage,
                                     rendergraph::HeapId heap, VkDeviceSize offset, std::string_view name) {
@@ -113,7 +122,9 @@ VkBuffer GraphBackend::createBuffer(const rendergraph::BufferDesc& desc, VkBuffe
   return buffer;
 }
 
-void GraphBackend::destroyBuffer(VkBuffer buffer) { device_.vk().vkDestroyBuffer(device_.handle(), buffer, nullptr); }
+void GraphBackend::destroyBuffer(VkBuffer buffer) {
+  device_.vk().vkDestroyBuffer(device_.handle(), buffer, nullptr);
+}
 
 VkImageView GraphBackend::createView(const rendergraph::ViewDesc& desc, std::string_view name) {
   VkImageViewCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
@@ -128,9 +139,13 @@ VkImageView GraphBackend::createView(const rendergraph::ViewDesc& desc, std::str
   return view;
 }
 
-void GraphBackend::destroyView(VkImageView view) { device_.vk().vkDestroyImageView(device_.handle(), view, nullptr); }
+void GraphBackend::destroyView(VkImageView view) {
+  device_.vk().vkDestroyImageView(device_.handle(), view, nullptr);
+}
 
-uint32_t GraphBackend::maxTimestamps() const { return kTimestamps; }
+uint32_t GraphBackend::maxTimestamps() const {
+  return kTimestamps;
+}
 
 void GraphBackend::writeTimestamp(VkCommandBuffer commands, VkPipelineStageFlags2 stage, uint32_t slot) {
   device_.vk().vkCmdWriteTimestamp2(commands, stage, queries_.get(), slot);
@@ -139,9 +154,8 @@ void GraphBackend::writeTimestamp(VkCommandBuffer commands, VkPipelineStageFlags
 void GraphBackend::readTimestamps(std::span<double> nanoseconds) {
   if (nanoseconds.empty()) return;
   ticks_.resize(nanoseconds.size());
-  require(device_.vk().vkGetQueryPoolResults(device_.handle(), queries_.get(), 0,
-                                             static_cast<uint32_t>(ticks_.size()), ticks_.size() * sizeof(uint64_t),
-                                             ticks_.data(), sizeof(uint64_t),
+  require(device_.vk().vkGetQueryPoolResults(device_.handle(), queries_.get(), 0, static_cast<uint32_t>(ticks_.size()),
+                                             ticks_.size() * sizeof(uint64_t), ticks_.data(), sizeof(uint64_t),
                                              VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
           "vkGetQueryPoolResults", "timestamps");
   for (std::size_t i = 0; i < ticks_.size(); ++i) {

@@ -61,8 +61,7 @@ class GraphBackend final : public rendergraph::Backend {
   void dispatch(VkCommandBuffer commands, const rendergraph::ResolvedDispatch& dispatch) override;
   void draw(VkCommandBuffer commands, const rendergraph::ResolvedDraw& draw) override;
   void copyImage(VkCommandBuffer commands, VkImage from, VkImage to, const VkImageCopy& region) override;
-  void copyImageToBuffer(VkCommandBuffer commands, VkImage from, VkBuffer to,
-                         const VkBufferImageCopy& region) override;
+  void copyImageToBuffer(VkCommandBuffer commands, VkImage from, VkBuffer to, const VkBufferImageCopy& region) override;
   void copyBuffer(VkCommandBuffer commands, VkBuffer from, VkBuffer to, VkDeviceSize bytes) override;
   void fillBuffer(VkCommandBuffer commands, VkBuffer to, uint32_t word) override;
   void clearImage(VkCommandBuffer commands, VkImage image, const VkClearColorValue& value,

@@ -33,7 +33,9 @@ void GraphBackend::barrier(VkCommandBuffer commands, const VkDependencyInfo& dep
 void GraphBackend::beginRendering(VkCommandBuffer commands, const VkRenderingInfo& rendering) {
   device_.vk().vkCmdBeginRendering(commands, &rendering);
 }
-void GraphBackend::endRendering(VkCommandBuffer commands) { device_.vk().vkCmdEndRendering(commands); }
+void GraphBackend::endRendering(VkCommandBuffer commands) {
+  device_.vk().vkCmdEndRendering(commands);
+}
 
 void GraphBackend::beginLabel(VkCommandBuffer commands, std::string_view name) {
   if (vkCmdBeginDebugUtilsLabelEXT == nullptr) return;
@@ -89,8 +91,8 @@ void GraphBackend::bind(VkCommandBuffer commands, VkPipelineBindPoint point, con
     vk.vkCmdBindDescriptorSets(commands, point, pipeline.layout, 0, 1, &set, 0, nullptr);
   }
   if (!pushConstants.empty()) {
-    vk.vkCmdPushConstants(commands, pipeline.layout, kAllShaderStages, 0,
-                          static_cast<uint32_t>(pushConstants.size()), pushConstants.data());
+    vk.vkCmdPushConstants(commands, pipeline.layout, kAllShaderStages, 0, static_cast<uint32_t>(pushConstants.size()),
+                          pushConstants.data());
   }
 }
 
@@ -105,11 +107,11 @@ void GraphBackend::dispatch(VkCommandBuffer commands, const rendergraph::Resolve
 }
 
 void GraphBackend::draw(VkCommandBuffer commands, const rendergraph::ResolvedDraw& draw) {
-  const auto& pipeline = pipelines_.raster(draw.program, kindsOf(draw.bindings), draw.specialization,
-                                           draw.colorFormats, draw.depthFormat);
+  const auto& pipeline =
+      pipelines_.raster(draw.program, kindsOf(draw.bindings), draw.specialization, draw.colorFormats, draw.depthFormat);
   bind(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline, draw.bindings, draw.pushConstants);
-  const VkViewport viewport{0.0f, 0.0f, static_cast<float>(draw.renderArea.width),
-                            static_cast<float>(draw.renderArea.height), 0.0f, 1.0f};
+  const VkViewport viewport{
+      0.0f, 0.0f, static_cast<float>(draw.renderArea.width), static_cast<float>(draw.renderArea.height), 0.0f, 1.0f};
   const VkRect2D scissor{{0, 0}, draw.renderArea};
   device_.vk().vkCmdSetViewport(commands, 0, 1, &viewport);
   device_.vk().vkCmdSetScissor(commands, 0, 1, &scissor);

@@ -12,9 +12,9 @@
 namespace engine {
 
 struct FloatImage {
-  uint32_t width = 0;     ///< px
-  uint32_t height = 0;    ///< px
-  uint32_t channels = 0;  ///< 1 (depth, luminance), 3 (RGB) or 4 (RGBA) in this project; any number is legal.
+  uint32_t width = 0;          ///< px
+  uint32_t height = 0;         ///< px
+  uint32_t channels = 0;       ///< 1 (depth, luminance), 3 (RGB) or 4 (RGBA) in this project; any number is legal.
   std::vector<float> samples;  ///< width · height · channels, top row first.
 
   FloatImage() = default;

@@ -49,8 +49,7 @@ Format formatOf(const fs::path& path) {
   if (extension == ".png") return Format::png;
   if (extension == ".hdr") return Format::hdr;
   fail(path,
-       extension.empty() ? "has no extension to tell the image format"
-                         : "unknown image format '" + extension + "'",
+       extension.empty() ? "has no extension to tell the image format" : "unknown image format '" + extension + "'",
        "use .exr, .png or .hdr");
 }
 
@@ -105,8 +104,8 @@ Input openInput(const fs::path& path) {
   if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) fail(path, "has no pixels");
   if (spec.depth > 1) fail(path, "is a volume, not an image");
   if (int64_t{spec.width} * spec.height > kMaxPixels || spec.nchannels > kMaxChannels) {
-    fail(path, "claims " + std::to_string(spec.width) + "x" + std::to_string(spec.height) +
-                   " pixels, more than can be read");
+    fail(path,
+         "claims " + std::to_string(spec.width) + "x" + std::to_string(spec.height) + " pixels, more than can be read");
   }
   return input;
 }
@@ -141,8 +140,7 @@ FloatImage pickChannels(const fs::path& path, const OIIO::ImageSpec& spec, const
   const int64_t width = spec.full_width > 0 ? spec.full_width : spec.width;
   const int64_t height = spec.full_height > 0 ? spec.full_height : spec.height;
   if (width * height > kMaxPixels) fail(path, "has a display window larger than can be read");
-  FloatImage image(static_cast<uint32_t>(width), static_cast<uint32_t>(height),
-                   static_cast<uint32_t>(channels.size()));
+  FloatImage image(static_cast<uint32_t>(width), static_cast<uint32_t>(height), static_cast<uint32_t>(channels.size()));
   for (int y = 0; y < spec.height; ++y) {
     const int64_t targetY = int64_t{spec.y} + y - spec.full_y;
     if (targetY < 0 || targetY >= height) continue;
@@ -189,9 +187,8 @@ class TemporaryFile {
   explicit TemporaryFile(const fs::path& destination) : destination_(destination) {
     static std::atomic<unsigned> counter{0};
     // Hidden and unique to the process; the extension stays, because it chooses the format.
-    path_ = destination.parent_path() /
-            ("." + destination.stem().string() + "." + std::to_string(::getpid()) + "-" +
-             std::to_string(counter++) + ".tmp" + destination.extension().string());
+    path_ = destination.parent_path() / ("." + destination.stem().string() + "." + std::to_string(::getpid()) + "-" +
+                                         std::to_string(counter++) + ".tmp" + destination.extension().string());
   }
   ~TemporaryFile() {
     std::error_code ignored;
@@ -215,9 +212,7 @@ class TemporaryFile {
 
 std::vector<uint8_t> encodePng(const FloatImage& image, double exposureEv) {
   const float gain = static_cast<float>(std::exp2(exposureEv));
-  const auto quantised = [](float v) {
-    return static_cast<uint8_t>(std::lround(255.0f * std::clamp(v, 0.0f, 1.0f)));
-  };
+  const auto quantised = [](float v) { return static_cast<uint8_t>(std::lround(255.0f * std::clamp(v, 0.0f, 1.0f))); };
   std::vector<uint8_t> bytes(image.samples.size());
   const uint32_t colors = image.channels == 4 ? 3 : image.channels;
   for (size_t i = 0; i < image.pixelCount(); ++i) {
@@ -246,21 +241,18 @@ std::vector<float> rgbSamples(const FloatImage& image) {
   return rgb;
 }
 
-void writeSamples(const fs::path& destination, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
-                  const void* samples) {
+void writeSamples(const fs::path& destination, const OIIO::ImageSpec& spec, OIIO::TypeDesc type, const void* samples) {
   TemporaryFile temporary(destination);
   const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(temporary.path().string());
   if (!output) fail(destination, "cannot be written: " + OIIO::geterror());
   if (!output->open(temporary.path().string(), spec)) {
-    fail(destination, "cannot be written: " + output->geterror(),
-         "choose a folder that exists and can be written to");
+    fail(destination, "cannot be written: " + output->geterror(), "choose a folder that exists and can be written to");
   }
   const bool isWritten = output->write_image(type, samples);
   const std::string problem = isWritten ? "" : output->geterror();
   // A full disk often shows only when the last buffer is flushed.
   if (!output->close() || !isWritten) {
-    fail(destination, "writing failed: " + (problem.empty() ? output->geterror() : problem), {},
-         ErrorKind::failed);
+    fail(destination, "writing failed: " + (problem.empty() ? output->geterror() : problem), {}, ErrorKind::failed);
   }
   temporary.place();
 }
@@ -283,8 +275,7 @@ FloatImage readImage(const fs::path& path) {
 FloatImage readDepth(const fs::path& path) {
   try {
     Input input = openInput(path);
-    if (input.format == Format::png)
-      fail(path, "PNG files cannot hold depth", "give depth as an EXR with a channel Z");
+    if (input.format == Format::png) fail(path, "PNG files cannot hold depth", "give depth as an EXR with a channel Z");
     int channel = -1;
     for (const char* name : {"Z", "depth", "Depth", "Y", "V"}) {
       if (channel < 0) channel = findChannel(input.spec, name);
@@ -303,8 +294,7 @@ void writeImage(const fs::path& path, const FloatImage& image, const ImageWriteO
   const Format format = formatOf(path);
   if (image.isEmpty()) fail(path, "there are no pixels to write");
   if (image.channels != 1 && image.channels != 3 && image.channels != 4) {
-    fail(path, "a picture of " + std::to_string(image.channels) + " channels cannot be written",
-         "use 1, 3 or 4");
+    fail(path, "a picture of " + std::to_string(image.channels) + " channels cannot be written", "use 1, 3 or 4");
   }
   std::error_code error;
   if (fs::is_directory(path, error)) fail(path, "is a folder, not a file", "add a file name");

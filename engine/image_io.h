@@ -18,8 +18,7 @@ enum class ExrSampleType { half16, float32 };
 
 struct ImageWriteOptions {
   ExrSampleType exrSampleType = ExrSampleType::float32;  ///< EXR only.
-  double exposureEv =
-      0.0;  ///< PNG only: colour is multiplied by 2^exposureEv before it is clamped and encoded.
+  double exposureEv = 0.0;  ///< PNG only: colour is multiplied by 2^exposureEv before it is clamped and encoded.
 };
 
 /// Reads a colour picture (.exr, .png, .hdr).
@@ -38,7 +37,6 @@ FloatImage readDepth(const std::filesystem::path& path);
 /// drops it). PNG: NaN becomes 0. The file appears whole or not at all: it is written beside its place and
 /// then renamed. Throws Error: unknown extension, destination that cannot be written, picture without pixels
 /// or with 2 or 5+ channels.
-void writeImage(const std::filesystem::path& path, const FloatImage& image,
-                const ImageWriteOptions& options = {});
+void writeImage(const std::filesystem::path& path, const FloatImage& image, const ImageWriteOptions& options = {});
 
 }  // namespace engine

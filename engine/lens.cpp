@@ -53,8 +53,7 @@ void checkApertureShape(const Lens& lens, Rules& rules) {
   rules.within(lens.bladeCurvature, 0.0, 1.0, "bladeCurvature", "use 0 (straight blades) to 1 (round)");
   rules.within(lens.anamorphicRatio, 0.25, 4.0, "anamorphicRatio", "use 0.25 to 4; 1 is a spherical lens");
   rules.within(lens.opticalVignetting, 0.0, 1.0, "opticalVignetting", "use 0 (none) to 1");
-  rules.within(lens.sphericalAberration, -1.0, 1.0, "sphericalAberration",
-               "use -1 (bright centre) to 1 (bright rim)");
+  rules.within(lens.sphericalAberration, -1.0, 1.0, "sphericalAberration", "use -1 (bright centre) to 1 (bright rim)");
 }
 
 }  // namespace
@@ -62,15 +61,12 @@ void checkApertureShape(const Lens& lens, Rules& rules) {
 std::vector<LensProblem> validate(const Lens& lens) {
   Rules rules;
   rules.positive(lens.focalLengthMm, "focalLengthMm", "give the focal length in millimetres, 50 for example");
-  rules.require(std::isfinite(lens.fStop) && lens.fStop >= 0.0, "fStop",
-                "must be zero or a positive, finite number",
+  rules.require(std::isfinite(lens.fStop) && lens.fStop >= 0.0, "fStop", "must be zero or a positive, finite number",
                 "give the f-number, 2.8 for example; 0 turns depth of field off");
   rules.require(std::isfinite(lens.apertureRadius), "apertureRadius", "is not a finite number",
                 "give the lens radius in metres, or leave it out and give focalLengthMm and fStop");
-  rules.positive(lens.sensorWidthMm, "sensorWidthMm",
-                 "give the sensor's width in millimetres, 36 for example");
-  rules.positive(lens.sensorHeightMm, "sensorHeightMm",
-                 "give the sensor's height in millimetres, 24 for example");
+  rules.positive(lens.sensorWidthMm, "sensorWidthMm", "give the sensor's width in millimetres, 36 for example");
+  rules.positive(lens.sensorHeightMm, "sensorHeightMm", "give the sensor's height in millimetres, 24 for example");
   rules.require(lens.focusDistance > 0.0, "focusDistance", "must be greater than zero",
                 "give metres along the optical axis, or infinity");
   rules.positive(lens.metersPerUnit, "metersPerUnit", "give metres per scene unit, 0.01 for centimetres");
@@ -79,8 +75,7 @@ std::vector<LensProblem> validate(const Lens& lens) {
                   "is not beyond the focal length: no image is formed behind the lens",
                   "focus farther away, shorten focalLengthMm, or use fovModel pinhole");
   }
-  rules.within(lens.maxCocRadius, 0.0, 1e6, "maxCocRadius",
-               "give a fraction of the image height; 0 means no limit");
+  rules.within(lens.maxCocRadius, 0.0, 1e6, "maxCocRadius", "give a fraction of the image height; 0 means no limit");
   checkApertureShape(lens, rules);
   return std::move(rules.problems);
 }
@@ -104,8 +99,7 @@ shared::LensConstants lensConstants(const Lens& lens, double fovyRadians, int im
   const double cocScale = pixelsPerTangent(lens, fovyRadians, imageHeight) * apertureRadius(lens);
   shared::LensConstants constants{};
   constants.cocScale = static_cast<float>(std::min(cocScale, kMaxCocScale));
-  constants.maxCocRadius =
-      lens.maxCocRadius > 0.0 ? static_cast<float>(lens.maxCocRadius * imageHeight) : kNoCocLimit;
+  constants.maxCocRadius = lens.maxCocRadius > 0.0 ? static_cast<float>(lens.maxCocRadius * imageHeight) : kNoCocLimit;
   constants.vergenceScale = static_cast<float>(1.0 / nearPlane);
   constants.vergenceOffset = 0.0f;
   // V_f carries the rounding error of 1/near, so that it cancels in V_f - V: three roundings instead of four

@@ -18,21 +18,21 @@ enum class FovModel {
 /// Thin lens. Every length in metres unless its name says millimetres, whatever the scene's unit: who draws the scene
 /// scales it by metersPerUnit, so that view space and near plane are in metres.
 struct Lens {
-  double focalLengthMm = 50.0;    ///< mm, > 0.
-  double fStop = 2.8;             ///< f-number, ≥ 0; 0 turns depth of field off.
-  double apertureRadius = -1.0;   ///< m; ≥ 0 replaces focalLengthMm / (2 fStop). Negative: not given.
-  double sensorWidthMm = 36.0;    ///< mm, > 0; breathing only.
-  double sensorHeightMm = 24.0;   ///< mm, > 0; breathing only.
-  double focusDistance = 10.0;    ///< m along the axis, > 0; infinity is legal.
-  double metersPerUnit = 1.0;     ///< Metres per scene unit, > 0.
+  double focalLengthMm = 50.0;   ///< mm, > 0.
+  double fStop = 2.8;            ///< f-number, ≥ 0; 0 turns depth of field off.
+  double apertureRadius = -1.0;  ///< m; ≥ 0 replaces focalLengthMm / (2 fStop). Negative: not given.
+  double sensorWidthMm = 36.0;   ///< mm, > 0; breathing only.
+  double sensorHeightMm = 24.0;  ///< mm, > 0; breathing only.
+  double focusDistance = 10.0;   ///< m along the axis, > 0; infinity is legal.
+  double metersPerUnit = 1.0;    ///< Metres per scene unit, > 0.
   FovModel fovModel = FovModel::pinhole;
-  int bladeCount = 0;             ///< 0 (round), 3…16.
-  double bladeRotation = 0.0;     ///< rad.
-  double bladeCurvature = 0.0;    ///< 0…1.
-  double anamorphicRatio = 1.0;   ///< 0.25…4; width over height of the bokeh.
-  double opticalVignetting = 0.0; ///< 0…1.
+  int bladeCount = 0;                ///< 0 (round), 3…16.
+  double bladeRotation = 0.0;        ///< rad.
+  double bladeCurvature = 0.0;       ///< 0…1.
+  double anamorphicRatio = 1.0;      ///< 0.25…4; width over height of the bokeh.
+  double opticalVignetting = 0.0;    ///< 0…1.
   double sphericalAberration = 0.0;  ///< -1…1.
-  double maxCocRadius = 0.0;      ///< Fraction of the image height; 0: no limit.
+  double maxCocRadius = 0.0;         ///< Fraction of the image height; 0: no limit.
 };
 
 /// What is wrong with a lens: field name, reason, remedy. Empty when nothing is.

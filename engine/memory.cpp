@@ -12,12 +12,14 @@ struct KindProperties {
 };
 
 KindProperties propertiesOf(rendergraph::MemoryKind kind) {
-  constexpr VkMemoryPropertyFlags kHost =
-      VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+  constexpr VkMemoryPropertyFlags kHost = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
   switch (kind) {
-    case rendergraph::MemoryKind::device: return {0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT};
-    case rendergraph::MemoryKind::upload: return {kHost, 0};
-    case rendergraph::MemoryKind::readback: return {kHost, VK_MEMORY_PROPERTY_HOST_CACHED_BIT};
+    case rendergraph::MemoryKind::device:
+      return {0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT};
+    case rendergraph::MemoryKind::upload:
+      return {kHost, 0};
+    case rendergraph::MemoryKind::readback:
+      return {kHost, VK_MEMORY_PROPERTY_HOST_CACHED_BIT};
   }
   return {0, 0};
 }
@@ -72,8 +74,8 @@ VkBufferCreateInfo bufferCreateInfo(VkDeviceSize size, VkBufferUsageFlags usage)
   return info;
 }
 
-GpuBuffer makeBuffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage,
-                     rendergraph::MemoryKind kind, const std::string& name) {
+GpuBuffer makeBuffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage, rendergraph::MemoryKind kind,
+                     const std::string& name) {
   const auto& vk = device.vk();
   const auto info = bufferCreateInfo(std::max<VkDeviceSize>(size, 16), usage);
   VkBuffer buffer = VK_NULL_HANDLE;
@@ -100,7 +102,8 @@ GpuImage makeImage(const Device& device, const rendergraph::ImageDesc& desc, VkI
   result.image = {device.handle(), image, vk.vkDestroyImage};
   VkMemoryRequirements requirements;
   vk.vkGetImageMemoryRequirements(device.handle(), image, &requirements);
-  result.block = allocateMemory(device, requirements.size, requirements.memoryTypeBits, rendergraph::MemoryKind::device);
+  result.block =
+      allocateMemory(device, requirements.size, requirements.memoryTypeBits, rendergraph::MemoryKind::device);
   check(vk.vkBindImageMemory(device.handle(), image, result.block.memory.get(), 0), "vkBindImageMemory " + name);
   VkImageViewCreateInfo viewInfo{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
   viewInfo.image = image;

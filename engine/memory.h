@@ -28,8 +28,8 @@ struct GpuBuffer {
   VkDeviceSize size = 0;
 };
 /// `size` 0 makes a buffer of 16 bytes, so that it can be bound.
-GpuBuffer makeBuffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage,
-                     rendergraph::MemoryKind kind, const std::string& name);
+GpuBuffer makeBuffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage, rendergraph::MemoryKind kind,
+                     const std::string& name);
 
 /// A two-dimensional image with its own memory and a view of all of it.
 struct GpuImage {

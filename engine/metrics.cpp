@@ -13,7 +13,7 @@
 namespace engine {
 namespace {
 
-constexpr int kSsimRadius = 5;  // px: scikit-image's int(truncate 3.5 · sigma 1.5 + 0.5), an 11x11 window
+constexpr int kSsimRadius = 5;           // px: scikit-image's int(truncate 3.5 · sigma 1.5 + 0.5), an 11x11 window
 constexpr double kSsimSigma = 1.5;       // px
 constexpr double kSsimC1 = 0.01 * 0.01;  // (K1 · range)²
 constexpr double kSsimC2 = 0.03 * 0.03;
@@ -21,13 +21,10 @@ constexpr double kSsimC2 = 0.03 * 0.03;
 void requireComparable(const FloatImage& image, const FloatImage& reference) {
   if (image.isEmpty() || reference.isEmpty()) throw Error("a picture to compare has no pixels");
   if (image.width != reference.width || image.height != reference.height) {
-    throw Error("pictures differ in size: " + std::to_string(image.width) + "x" +
-                std::to_string(image.height) + " and " + std::to_string(reference.width) + "x" +
-                std::to_string(reference.height));
+    throw Error("pictures differ in size: " + std::to_string(image.width) + "x" + std::to_string(image.height) +
+                " and " + std::to_string(reference.width) + "x" + std::to_string(reference.height));
   }
-  const auto channelsKnown = [](const FloatImage& i) {
-    return i.channels == 1 || i.channels == 3 || i.channels == 4;
-  };
+  const auto channelsKnown = [](const FloatImage& i) { return i.channels == 1 || i.channels == 3 || i.channels == 4; };
   if (!channelsKnown(image) || !channelsKnown(reference)) {
     throw Error("pictures to compare must have 1, 3 or 4 channels");
   }
@@ -41,8 +38,7 @@ std::vector<uint8_t> selectedPixels(const FloatImage& image, const FloatImage* m
     throw Error("the mask must have one channel and the size of the pictures");
   }
   for (size_t i = 0; i < selected.size(); ++i) selected[i] = mask->samples[i] > 0.0f ? 1 : 0;
-  if (std::find(selected.begin(), selected.end(), 1) == selected.end())
-    throw Error("the mask selects no pixel");
+  if (std::find(selected.begin(), selected.end(), 1) == selected.end()) throw Error("the mask selects no pixel");
   return selected;
 }
 
@@ -102,8 +98,7 @@ std::vector<double> blurred(const std::vector<double>& source, int width, int he
   return result;
 }
 
-std::vector<double> ssimValues(const std::vector<double>& a, const std::vector<double>& b, int width,
-                               int height) {
+std::vector<double> ssimValues(const std::vector<double>& a, const std::vector<double>& b, int width, int height) {
   std::vector<double> aa(a.size()), bb(a.size()), ab(a.size());
   for (size_t i = 0; i < a.size(); ++i) {
     aa[i] = a[i] * a[i];
@@ -130,8 +125,7 @@ std::vector<double> lumaPlane(const FloatImage& picture) {
   return plane;
 }
 
-std::optional<double> meanSsim(const FloatImage& a, const FloatImage& b,
-                               const std::vector<uint8_t>& selected) {
+std::optional<double> meanSsim(const FloatImage& a, const FloatImage& b, const std::vector<uint8_t>& selected) {
   const int width = static_cast<int>(a.width), height = static_cast<int>(a.height);
   if (width <= 2 * kSsimRadius || height <= 2 * kSsimRadius) return std::nullopt;
   const std::vector<double> values = ssimValues(lumaPlane(a), lumaPlane(b), width, height);
@@ -187,9 +181,8 @@ void measureDisplayed(const FloatImage& a, const FloatImage& b, const std::vecto
       metrics.maxErrorDisplayed = std::max(metrics.maxErrorDisplayed, std::fabs(difference));
     }
   }
-  metrics.psnr = squaredError == 0.0
-                     ? std::numeric_limits<double>::infinity()
-                     : 10.0 * std::log10(3.0 * static_cast<double>(metrics.pixelCount) / squaredError);
+  metrics.psnr = squaredError == 0.0 ? std::numeric_limits<double>::infinity()
+                                     : 10.0 * std::log10(3.0 * static_cast<double>(metrics.pixelCount) / squaredError);
 }
 
 }  // namespace
@@ -226,8 +219,7 @@ FloatImage ssimMap(const FloatImage& a, const FloatImage& b) {
   const std::vector<double> values =
       ssimValues(lumaPlane(a), lumaPlane(b), static_cast<int>(a.width), static_cast<int>(a.height));
   FloatImage map(a.width, a.height, 1);
-  std::transform(values.begin(), values.end(), map.samples.begin(),
-                 [](double v) { return static_cast<float>(v); });
+  std::transform(values.begin(), values.end(), map.samples.begin(), [](double v) { return static_cast<float>(v); });
   return map;
 }
 

@@ -15,18 +15,16 @@
 namespace engine {
 
 struct MetricsOptions {
-  double exposureEv = 0.0;  ///< Stops by which both pictures are brightened before they are displayed.
+  double exposureEv = 0.0;           ///< Stops by which both pictures are brightened before they are displayed.
   const FloatImage* mask = nullptr;  ///< One channel, same size: only pixels above 0 are measured. Null: all.
 };
 
 /// Only RGB is compared; alpha is not. A picture of one channel counts as grey.
 struct Metrics {
-  double psnr = 0.0;  ///< dB, peak 1, over R, G and B of the displayed pictures; infinity when equal.
-  std::optional<double>
-      ssim;  ///< None when the picture, or the mask inside its borders, is too small to say.
+  double psnr = 0.0;               ///< dB, peak 1, over R, G and B of the displayed pictures; infinity when equal.
+  std::optional<double> ssim;      ///< None when the picture, or the mask inside its borders, is too small to say.
   double maxErrorDisplayed = 0.0;  ///< Largest difference of a channel of the displayed pictures, 0…1.
-  double maxErrorLinear =
-      0.0;  ///< Largest difference of a channel in linear light (no exposure), finite samples.
+  double maxErrorLinear = 0.0;     ///< Largest difference of a channel in linear light (no exposure), finite samples.
   /// sqrt(sum (a-b)²) / sqrt(sum b²) in linear light over finite samples, b the reference: highlights count.
   /// 0 when equal, infinity when the reference is black and the picture is not.
   double relativeRmse = 0.0;
@@ -39,8 +37,7 @@ struct Metrics {
 /// as an error against a bright reference. In linear light pixels that are not finite in both pictures are
 /// left out; the counts say how many. Throws Error: sizes differ, picture without pixels, mask of another
 /// size or without a pixel above 0.
-Metrics compareImages(const FloatImage& image, const FloatImage& reference,
-                      const MetricsOptions& options = {});
+Metrics compareImages(const FloatImage& image, const FloatImage& reference, const MetricsOptions& options = {});
 
 /// The displayed picture of a linear one, RGB (one channel stays one), float in [0,1]; alpha is dropped.
 FloatImage displayed(const FloatImage& image, double exposureEv);

@@ -39,10 +39,14 @@ struct Specialization {
 
 VkDescriptorType descriptorTypeOf(BindingKind kind) {
   switch (kind) {
-    case BindingKind::sampledImage: return VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-    case BindingKind::storageImage: return VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
-    case BindingKind::storageBuffer: return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    case BindingKind::uniformBuffer: return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    case BindingKind::sampledImage:
+      return VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    case BindingKind::storageImage:
+      return VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+    case BindingKind::storageBuffer:
+      return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    case BindingKind::uniformBuffer:
+      return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
   }
   return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 }
@@ -60,9 +64,12 @@ std::filesystem::path defaultPipelineCacheFile(const Device& device) {
   const char* cache = std::getenv("XDG_CACHE_HOME");
   const char* home = std::getenv("HOME");
   std::filesystem::path folder;
-  if (cache != nullptr && *cache != '\0') folder = cache;
-  else if (home != nullptr && *home != '\0') folder = std::filesystem::path(home) / ".cache";
-  else return {};
+  if (cache != nullptr && *cache != '\0')
+    folder = cache;
+  else if (home != nullptr && *home != '\0')
+    folder = std::filesystem::path(home) / ".cache";
+  else
+    return {};
   const auto& description = device.description();
   const auto hash = std::hash<std::string>{}(description.name + description.driver);
   return folder / "lensgraph" / ("pipelines-" + std::to_string(hash) + ".bin");
@@ -166,8 +173,7 @@ const BoundPipeline& PipelineStore::compute(const rendergraph::ComputeProgram& p
 }
 
 const BoundPipeline& PipelineStore::raster(const rendergraph::RasterProgram& program,
-                                           std::span<const BindingKind> kinds,
-                                           std::span<const uint32_t> specialization,
+                                           std::span<const BindingKind> kinds, std::span<const uint32_t> specialization,
                                            std::span<const VkFormat> colorFormats, VkFormat depthFormat) {
   beginKey(&program, kinds, specialization);
   key_.append(reinterpret_cast<const char*>(colorFormats.data()), colorFormats.size_bytes());

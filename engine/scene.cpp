@@ -64,8 +64,7 @@ void checkTextureUse(const Scene& scene, size_t material, const TextureUse& use,
   if (use.texture >= scene.textures.size()) {
     problems.push_back(element("materials", material, member) + ": texture index out of range");
   }
-  if (use.uvSet > 1)
-    problems.push_back(element("materials", material, member) + ": UV set is neither 0 nor 1");
+  if (use.uvSet > 1) problems.push_back(element("materials", material, member) + ": UV set is neither 0 nor 1");
 }
 
 }  // namespace
@@ -99,8 +98,7 @@ Bounds worldBounds(const Scene& scene) {
 
 uint64_t triangleCount(const Scene& scene) {
   uint64_t count = 0;
-  for (const Instance& instance : scene.instances)
-    count += scene.primitives[instance.primitive].triangleCount();
+  for (const Instance& instance : scene.instances) count += scene.primitives[instance.primitive].triangleCount();
   return count;
 }
 

@@ -106,14 +106,13 @@ struct Material {
 struct Primitive {
   std::string name;                  ///< For messages: mesh name or "meshes[2].primitives[0]".
   std::vector<glm::vec3> positions;  ///< Object space, finite.
-  std::vector<glm::vec3> normals;  ///< Unit length; always filled by a loader (flat where the file has none).
-  std::vector<glm::vec4> tangents;  ///< Optional. w = ±1 is the bitangent's sign.
-  std::vector<glm::vec2> uvs[2];    ///< Optional. Sets 0 and 1.
-  std::vector<glm::vec4> colors;    ///< Optional; linear RGBA, alpha 1 where the file has none.
-  std::vector<uint32_t>
-      indices;  ///< Three per triangle, each below positions.size(); counter-clockwise is front.
-  uint32_t material = kNoIndex;  ///< Scene::materials
-  Bounds bounds;                 ///< Of positions, object space.
+  std::vector<glm::vec3> normals;    ///< Unit length; always filled by a loader (flat where the file has none).
+  std::vector<glm::vec4> tangents;   ///< Optional. w = ±1 is the bitangent's sign.
+  std::vector<glm::vec2> uvs[2];     ///< Optional. Sets 0 and 1.
+  std::vector<glm::vec4> colors;     ///< Optional; linear RGBA, alpha 1 where the file has none.
+  std::vector<uint32_t> indices;     ///< Three per triangle, each below positions.size(); counter-clockwise is front.
+  uint32_t material = kNoIndex;      ///< Scene::materials
+  Bounds bounds;                     ///< Of positions, object space.
 
   size_t triangleCount() const { return indices.size() / 3; }
 };

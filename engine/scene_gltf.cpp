@@ -28,8 +28,7 @@ bool isFinite(const glm::dmat4& m) {
 }
 
 // T · R · S; none when the quaternion has no direction.
-std::optional<glm::dmat4> fromTrs(const glm::dvec3& translation, const glm::dvec4& rotation,
-                                  const glm::dvec3& scale) {
+std::optional<glm::dmat4> fromTrs(const glm::dvec3& translation, const glm::dvec4& rotation, const glm::dvec3& scale) {
   const double length = glm::length(rotation);
   if (!(length > 0.0) || !std::isfinite(length)) return std::nullopt;
   const glm::dvec4 q = rotation / length;
@@ -65,9 +64,7 @@ bool isHidden(const glm::dmat4& m) {
 class Assembler {
  public:
   Assembler(Document& document, const glm::dmat4& worldFromFile, const GltfOptions& options)
-      : document_(document),
-        worldFromFile_(worldFromFile),
-        materials_(document, scene_, options.loadShadingTextures) {}
+      : document_(document), worldFromFile_(worldFromFile), materials_(document, scene_, options.loadShadingTextures) {}
 
   Scene assemble() {
     placeNodes();
@@ -119,8 +116,7 @@ class Assembler {
       const Entry entry = stack.back();
       stack.pop_back();
       const size_t index = static_cast<size_t>(entry.node);
-      if (isVisited[index])
-        document_.fail(at("nodes", index), "is reached twice: nodes must form a tree, not a cycle");
+      if (isVisited[index]) document_.fail(at("nodes", index), "is reached twice: nodes must form a tree, not a cycle");
       isVisited[index] = true;
       fileFromNode_[index] = entry.fileFromParent * parentFromNode(document_, index);
       drawn_.push_back(index);
@@ -181,8 +177,7 @@ class Assembler {
     const tinygltf::PerspectiveCamera& lens = source.perspective;
     const std::string field = at("cameras", index, ".perspective");
     if (!(lens.yfov > 0.0 && lens.yfov < kPi)) document_.fail(field + ".yfov", "is not inside (0, pi)");
-    if (!(lens.znear > 0.0) || !std::isfinite(lens.znear))
-      document_.fail(field + ".znear", "is not positive");
+    if (!(lens.znear > 0.0) || !std::isfinite(lens.znear)) document_.fail(field + ".znear", "is not positive");
     SceneCamera camera;
     camera.name = source.name.empty() ? node.name : source.name;
     camera.nodeName = node.name;
@@ -216,10 +211,8 @@ class Assembler {
       light.color[static_cast<int>(c)] = gltf::toFloat(document_, source.color[c], field + ".color");
     light.intensity = gltf::toFloat(document_, source.intensity, field + ".intensity");
     if (source.range > 0.0) light.range = gltf::toFloat(document_, source.range, field + ".range");
-    light.innerConeAngle =
-        gltf::toFloat(document_, source.spot.innerConeAngle, field + ".spot.innerConeAngle");
-    light.outerConeAngle =
-        gltf::toFloat(document_, source.spot.outerConeAngle, field + ".spot.outerConeAngle");
+    light.innerConeAngle = gltf::toFloat(document_, source.spot.innerConeAngle, field + ".spot.innerConeAngle");
+    light.outerConeAngle = gltf::toFloat(document_, source.spot.outerConeAngle, field + ".spot.outerConeAngle");
     const bool isConeOrdered = 0.0 <= source.spot.innerConeAngle &&
                                source.spot.innerConeAngle < source.spot.outerConeAngle &&
                                source.spot.outerConeAngle <= kPi / 2.0 + 1e-6;
@@ -254,9 +247,8 @@ void merge(Scene& scene, Scene added) {
   for (Primitive& primitive : added.primitives) shift(primitive.material, scene.materials.size());
   for (Texture& texture : added.textures) shift(texture.image, scene.images.size());
   for (Material& material : added.materials) {
-    for (TextureUse* use :
-         {&material.baseColorTexture, &material.emissiveTexture, &material.metallicRoughnessTexture,
-          &material.normalTexture, &material.occlusionTexture}) {
+    for (TextureUse* use : {&material.baseColorTexture, &material.emissiveTexture, &material.metallicRoughnessTexture,
+                            &material.normalTexture, &material.occlusionTexture}) {
       shift(use->texture, scene.textures.size());
     }
   }
@@ -286,8 +278,8 @@ glm::dmat4 worldFromPlacement(const Placement& placement) {
   return *matrix;
 }
 
-std::vector<std::string> appendGltf(Scene& scene, const std::filesystem::path& path,
-                                    const glm::dmat4& worldFromFile, const GltfOptions& options) {
+std::vector<std::string> appendGltf(Scene& scene, const std::filesystem::path& path, const glm::dmat4& worldFromFile,
+                                    const GltfOptions& options) {
   try {
     Document document = gltf::readDocument(path);
     merge(scene, Assembler(document, worldFromFile, options).assemble());
@@ -295,14 +287,11 @@ std::vector<std::string> appendGltf(Scene& scene, const std::filesystem::path& p
   } catch (const Error&) {
     throw;
   } catch (const std::bad_alloc&) {
-    throw Error(
-        ErrorParts{.file = path.string(), .field = {}, .reason = "does not fit into memory", .remedy = {}},
-        ErrorKind::failed);
+    throw Error(ErrorParts{.file = path.string(), .field = {}, .reason = "does not fit into memory", .remedy = {}},
+                ErrorKind::failed);
   } catch (const std::exception& error) {
-    throw Error(ErrorParts{.file = path.string(),
-                           .field = {},
-                           .reason = std::string("cannot be read: ") + error.what(),
-                           .remedy = {}});
+    throw Error(ErrorParts{
+        .file = path.string(), .field = {}, .reason = std::string("cannot be read: ") + error.what(), .remedy = {}});
   }
 }
 

@@ -23,8 +23,7 @@ namespace engine {
 /// Where a file stands in the world: worldFromFile = T · R · S, as a glTF node's.
 struct Placement {
   glm::dvec3 translation{0.0};
-  glm::dvec4 rotation{0.0, 0.0, 0.0,
-                      1.0};  ///< Quaternion x, y, z, w; need not be normalised, must not be zero.
+  glm::dvec4 rotation{0.0, 0.0, 0.0, 1.0};  ///< Quaternion x, y, z, w; need not be normalised, must not be zero.
   glm::dvec3 scale{1.0};
 };
 
@@ -42,7 +41,6 @@ struct GltfOptions {
 /// unchanged when the file is missing, damaged or needs an extension that is not read. A file without
 /// anything to draw is legal.
 std::vector<std::string> appendGltf(Scene& scene, const std::filesystem::path& path,
-                                    const glm::dmat4& worldFromFile = glm::dmat4(1.0),
-                                    const GltfOptions& options = {});
+                                    const glm::dmat4& worldFromFile = glm::dmat4(1.0), const GltfOptions& options = {});
 
 }  // namespace engine

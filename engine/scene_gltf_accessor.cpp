@@ -42,9 +42,8 @@ void copyElements(const Document& document, std::span<const uint8_t> source, siz
   const bool fits = offset <= source.size() && elementSize <= source.size() - offset &&
                     count - 1 <= (source.size() - offset - elementSize) / stride;
   if (!fits) {
-    document.fail(place, "reaches past the end of its buffer view: " + std::to_string(count) +
-                             " elements from byte " + std::to_string(offset) + ", the view has " +
-                             std::to_string(source.size()) + " bytes");
+    document.fail(place, "reaches past the end of its buffer view: " + std::to_string(count) + " elements from byte " +
+                             std::to_string(offset) + ", the view has " + std::to_string(source.size()) + " bytes");
   }
   target.resize(count * elementSize);
   for (size_t i = 0; i < count; ++i) {
@@ -91,10 +90,10 @@ void applySparse(const Document& document, const tinygltf::Accessor& accessor, s
   }
   const size_t indexSize = componentSize(sparse.indices.componentType);
   std::vector<uint8_t> indices, values;
-  copyElements(document, viewBytes(document, sparse.indices.bufferView), offsetOf(sparse.indices.byteOffset),
-               indexSize, indexSize, count, place + ".sparse.indices", indices);
-  copyElements(document, viewBytes(document, sparse.values.bufferView), offsetOf(sparse.values.byteOffset),
-               elementSize, elementSize, count, place + ".sparse.values", values);
+  copyElements(document, viewBytes(document, sparse.indices.bufferView), offsetOf(sparse.indices.byteOffset), indexSize,
+               indexSize, count, place + ".sparse.indices", indices);
+  copyElements(document, viewBytes(document, sparse.values.bufferView), offsetOf(sparse.values.byteOffset), elementSize,
+               elementSize, count, place + ".sparse.values", values);
   for (size_t i = 0; i < count; ++i) {
     const uint32_t index = unsignedAt(indices, i, sparse.indices.componentType);
     if (index >= accessor.count) {
@@ -112,8 +111,7 @@ std::vector<uint8_t> packedBytes(const Document& document, int index, int compon
   const std::string place = at("accessors", static_cast<size_t>(index));
   const size_t size = componentSize(accessor.componentType);
   if (size == 0)
-    document.fail(place + ".componentType",
-                  std::to_string(accessor.componentType) + " is no component type of glTF");
+    document.fail(place + ".componentType", std::to_string(accessor.componentType) + " is no component type of glTF");
   const size_t elementSize = size * static_cast<size_t>(components);
   std::vector<uint8_t> bytes;
   if (accessor.bufferView >= 0) {
@@ -160,8 +158,8 @@ void requireComponents(const Document& document, const tinygltf::Accessor& acces
                     : accessor.type == TINYGLTF_TYPE_MAT4 ? 16
                                                           : componentCount(accessor);
   if (found != components) {
-    document.fail(field, "its accessor has " + std::to_string(found) + " components instead of " +
-                             std::to_string(components));
+    document.fail(field,
+                  "its accessor has " + std::to_string(found) + " components instead of " + std::to_string(components));
   }
 }
 
@@ -191,8 +189,8 @@ std::span<const uint8_t> viewBytes(const Document& document, int bufferView) {
   return std::span(data).subspan(view.byteOffset, view.byteLength);
 }
 
-std::vector<float> readFloats(const Document& document, int accessorIndex, int components,
-                              unsigned allowedTypes, const std::string& field) {
+std::vector<float> readFloats(const Document& document, int accessorIndex, int components, unsigned allowedTypes,
+                              const std::string& field) {
   const tinygltf::Accessor& accessor = document.model.accessors[static_cast<size_t>(accessorIndex)];
   requireComponents(document, accessor, components, field);
   if ((neededType(accessor) & allowedTypes) == 0) {

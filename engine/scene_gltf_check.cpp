@@ -259,8 +259,7 @@ class Checker {
   void checkArray(Json& value, const std::string& field, const Rule& rule) {
     require(value.is_array(), field, "is not an array");
     if (rule.length != 0 && value.size() != rule.length) {
-      fail(field,
-           "has " + std::to_string(value.size()) + " elements instead of " + std::to_string(rule.length));
+      fail(field, "has " + std::to_string(value.size()) + " elements instead of " + std::to_string(rule.length));
     }
     for (size_t i = 0; i < value.size(); ++i) {
       const std::string element = field + "[" + std::to_string(i) + "]";
@@ -279,16 +278,13 @@ class Checker {
     constexpr double kLargest = 9007199254740992.0;
     if (value.is_number_float()) {
       const double number = value.get<double>();
-      if (number >= 0.0 && number <= kLargest &&
-          number == static_cast<double>(static_cast<uint64_t>(number))) {
+      if (number >= 0.0 && number <= kLargest && number == static_cast<double>(static_cast<uint64_t>(number))) {
         value = static_cast<uint64_t>(number);
       }
     }
-    if (!value.is_number_unsigned())
-      fail(field, "is " + value.dump().substr(0, 40) + ", not an integer from 0");
+    if (!value.is_number_unsigned()) fail(field, "is " + value.dump().substr(0, 40) + ", not an integer from 0");
     const uint64_t number = value.get<uint64_t>();
-    if (static_cast<double>(number) > kLargest)
-      fail(field, "is " + std::to_string(number) + ", beyond every file");
+    if (static_cast<double>(number) > kLargest) fail(field, "is " + std::to_string(number) + ", beyond every file");
     return number;
   }
 
@@ -321,8 +317,8 @@ class Checker {
 
 void checkStructure(Json& root, const std::string& file) {
   if (!root.is_object()) {
-    throw Error(ErrorParts{
-        .file = file, .field = {}, .reason = "is not a glTF file: its JSON is no object", .remedy = {}});
+    throw Error(
+        ErrorParts{.file = file, .field = {}, .reason = "is not a glTF file: its JSON is no object", .remedy = {}});
   }
   Checker checker(root, file);
   for (const Rule& rule : kRules) checker.check(rule);

@@ -76,16 +76,14 @@ std::string_view asText(std::span<const uint8_t> bytes) {
 Chunks splitGlb(const Document& document, std::span<const uint8_t> bytes) {
   constexpr uint32_t kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
   const std::string remedy = "export or copy the file again";
-  if (bytes.size() < 20)
-    document.fail("", "truncated .glb: " + std::to_string(bytes.size()) + " bytes", remedy);
+  if (bytes.size() < 20) document.fail("", "truncated .glb: " + std::to_string(bytes.size()) + " bytes", remedy);
   if (const uint32_t version = littleEndian32(bytes.data() + 4); version != 2) {
     document.fail("", "glTF binary version " + std::to_string(version) + ", only 2 is read");
   }
   const uint32_t length = littleEndian32(bytes.data() + 8);
   if (length > bytes.size()) {
-    document.fail(
-        "", "truncated .glb: " + std::to_string(bytes.size()) + " of " + std::to_string(length) + " bytes",
-        remedy);
+    document.fail("", "truncated .glb: " + std::to_string(bytes.size()) + " of " + std::to_string(length) + " bytes",
+                  remedy);
   }
   bytes = bytes.first(std::max(length, 12u));
   Chunks chunks;
@@ -95,8 +93,7 @@ Chunks splitGlb(const Document& document, std::span<const uint8_t> bytes) {
     if (chunkLength > bytes.size() - offset - 8)
       document.fail("", "damaged .glb: a chunk reaches past the end", remedy);
     const auto data = bytes.subspan(offset + 8, chunkLength);
-    if (offset == 12 && type != kJsonChunk)
-      document.fail("", "damaged .glb: the first chunk is not JSON", remedy);
+    if (offset == 12 && type != kJsonChunk) document.fail("", "damaged .glb: the first chunk is not JSON", remedy);
     if (offset == 12) chunks.json = asText(data);
     if (offset != 12 && type == kBinaryChunk && !chunks.binary) chunks.binary = data;
     offset += 8 + chunkLength;
@@ -216,8 +213,7 @@ std::string percentDecoded(std::string_view uri) {
 
 // ---- Buffers and images
 
-std::vector<uint8_t> bufferBytes(const Document& document, const Json& buffer, size_t index,
-                                 const Chunks& chunks) {
+std::vector<uint8_t> bufferBytes(const Document& document, const Json& buffer, size_t index, const Chunks& chunks) {
   const uint64_t byteLength = buffer["byteLength"].get<uint64_t>();
   std::vector<uint8_t> bytes;
   if (buffer.contains("uri")) {
@@ -228,9 +224,8 @@ std::vector<uint8_t> bufferBytes(const Document& document, const Json& buffer, s
     document.fail(at("buffers", index, ".uri"), "is missing and there is no binary chunk to take its place");
   }
   if (bytes.size() < byteLength) {
-    document.fail(
-        at("buffers", index, ".byteLength"),
-        "promises " + std::to_string(byteLength) + " bytes, there are " + std::to_string(bytes.size()));
+    document.fail(at("buffers", index, ".byteLength"),
+                  "promises " + std::to_string(byteLength) + " bytes, there are " + std::to_string(bytes.size()));
   }
   bytes.resize(byteLength);
   return bytes;
@@ -261,8 +256,7 @@ void Document::fail(const std::string& field, const std::string& reason, const s
 
 void Document::warn(const std::string& text) {
   std::string line = file + ": " + text;
-  if (std::find(warnings.begin(), warnings.end(), line) == warnings.end())
-    warnings.push_back(std::move(line));
+  if (std::find(warnings.begin(), warnings.end(), line) == warnings.end()) warnings.push_back(std::move(line));
 }
 
 std::string at(const char* array, size_t index, const std::string& member) {
@@ -280,8 +274,7 @@ std::vector<uint8_t> readUri(const Document& document, const std::string& uri, c
     return std::move(*bytes);
   }
   if (text.find("://") != std::string_view::npos) {
-    document.fail(field, "'" + uri.substr(0, 80) + "' is not a local file",
-                  "download it and make the URI relative");
+    document.fail(field, "'" + uri.substr(0, 80) + "' is not a local file", "download it and make the URI relative");
   }
   const std::string name = percentDecoded(text);
   if (name.empty()) document.fail(field, "is empty");
@@ -303,8 +296,7 @@ Document readDocument(const fs::path& path) {
   Json root = parseJson(document, chunks.json);
   checkStructure(root, document.file);
   checkVersionAndExtensions(document, root);
-  if (!root.value("animations", Json::array()).empty())
-    document.warn("animations are ignored, the rest pose is drawn");
+  if (!root.value("animations", Json::array()).empty()) document.warn("animations are ignored, the rest pose is drawn");
   root.erase("animations");
   std::vector<tinygltf::Buffer> buffers;
   std::vector<tinygltf::Image> images;
@@ -313,8 +305,8 @@ Document readDocument(const fs::path& path) {
   const std::string text = root.dump();
   tinygltf::TinyGLTF loader;
   std::string errors, warnings;
-  if (!loader.LoadASCIIFromString(&document.model, &errors, &warnings, text.data(),
-                                  static_cast<unsigned>(text.size()), "", tinygltf::NO_REQUIRE)) {
+  if (!loader.LoadASCIIFromString(&document.model, &errors, &warnings, text.data(), static_cast<unsigned>(text.size()),
+                                  "", tinygltf::NO_REQUIRE)) {
     document.fail("", "is not valid glTF: " + errors);
   }
   document.model.buffers = std::move(buffers);

@@ -26,8 +26,7 @@ struct Document {
   tinygltf::Model model;
   std::vector<std::string> warnings;
 
-  [[noreturn]] void fail(const std::string& field, const std::string& reason,
-                         const std::string& remedy = {}) const;
+  [[noreturn]] void fail(const std::string& field, const std::string& reason, const std::string& remedy = {}) const;
   /// Adds a warning once, however often it is found.
   void warn(const std::string& text);
 };
@@ -64,8 +63,7 @@ std::vector<float> readFloats(const Document& document, int accessor, int compon
                               const std::string& field);
 
 /// An accessor of unsigned integers (scalars or vectors of `components`).
-std::vector<uint32_t> readUnsigned(const Document& document, int accessor, int components,
-                                   const std::string& field);
+std::vector<uint32_t> readUnsigned(const Document& document, int accessor, int components, const std::string& field);
 
 /// 2 for VEC2 and so on; 0 for what is no vector.
 int componentCount(const tinygltf::Accessor& accessor);

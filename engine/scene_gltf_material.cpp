@@ -77,8 +77,8 @@ double numberIn(const tinygltf::Value& object, const char* member, double otherw
   return object.Has(member) ? object.Get(member).GetNumberAsDouble() : otherwise;
 }
 
-glm::vec2 vec2In(const Document& document, const tinygltf::Value& object, const char* member,
-                 glm::vec2 otherwise, const std::string& field) {
+glm::vec2 vec2In(const Document& document, const tinygltf::Value& object, const char* member, glm::vec2 otherwise,
+                 const std::string& field) {
   if (!object.Has(member)) return otherwise;
   const tinygltf::Value& value = object.Get(member);
   return {toFloat(document, value.Get(0).GetNumberAsDouble(), field + "." + member),
@@ -113,8 +113,8 @@ SceneImage decodeImage(const Document& document, int index, ColorEncoding encodi
 
   tinygltf::Image decoded;
   std::string errors, warnings;
-  if (!tinygltf::LoadImageData(&decoded, index, &errors, &warnings, 0, 0, bytes.data(),
-                               static_cast<int>(bytes.size()), nullptr)) {
+  if (!tinygltf::LoadImageData(&decoded, index, &errors, &warnings, 0, 0, bytes.data(), static_cast<int>(bytes.size()),
+                               nullptr)) {
     document.fail(field, name + "is damaged and cannot be decoded");
   }
   SceneImage image;
@@ -156,9 +156,7 @@ uint32_t MaterialBuilder::materialIndex(int material) {
 Material MaterialBuilder::build(size_t index) {
   const tinygltf::Material& source = document_.model.materials[index];
   const std::string field = at("materials", index);
-  const auto number = [&](double value, const char* member) {
-    return toFloat(document_, value, field + member);
-  };
+  const auto number = [&](double value, const char* member) { return toFloat(document_, value, field + member); };
   Material material;
   material.name = source.name;
   material.alphaMode = alphaModeOf(document_, source.alphaMode, field + ".alphaMode");
@@ -180,8 +178,7 @@ Material MaterialBuilder::build(size_t index) {
 
   for (int c = 0; c < 3; ++c)
     material.emissiveFactor[c] = number(source.emissiveFactor[static_cast<size_t>(c)], ".emissiveFactor");
-  if (const auto found = source.extensions.find("KHR_materials_emissive_strength");
-      found != source.extensions.end()) {
+  if (const auto found = source.extensions.find("KHR_materials_emissive_strength"); found != source.extensions.end()) {
     material.emissiveStrength = number(numberIn(found->second, "emissiveStrength", 1.0),
                                        ".extensions.KHR_materials_emissive_strength.emissiveStrength");
   }
@@ -194,8 +191,7 @@ Material MaterialBuilder::build(size_t index) {
                                           field + ".pbrMetallicRoughness.metallicRoughnessTexture");
   material.normalTexture = use(source.normalTexture, ColorEncoding::linear, field + ".normalTexture");
   material.normalScale = number(source.normalTexture.scale, ".normalTexture.scale");
-  material.occlusionTexture =
-      use(source.occlusionTexture, ColorEncoding::linear, field + ".occlusionTexture");
+  material.occlusionTexture = use(source.occlusionTexture, ColorEncoding::linear, field + ".occlusionTexture");
   material.occlusionStrength = number(source.occlusionTexture.strength, ".occlusionTexture.strength");
   return material;
 }

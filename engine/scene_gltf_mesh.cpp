@@ -32,8 +32,7 @@ class PrimitiveReader {
   std::vector<Vector> read(const char* name, unsigned types) const {
     const int accessor = accessorOf(name);
     if (accessor < 0) return {};
-    const std::vector<float> values =
-        readFloats(document_, accessor, Vector::length(), types, attributeField(name));
+    const std::vector<float> values = readFloats(document_, accessor, Vector::length(), types, attributeField(name));
     std::vector<Vector> result(values.size() / Vector::length());
     if (!values.empty()) std::memcpy(result.data(), values.data(), values.size() * sizeof(float));
     return result;
@@ -43,8 +42,8 @@ class PrimitiveReader {
   std::vector<Vector> readMatching(const char* name, unsigned types, size_t count) const {
     std::vector<Vector> result = read<Vector>(name, types);
     if (accessorOf(name) >= 0 && result.size() != count) {
-      document_.fail(attributeField(name), "has " + std::to_string(result.size()) +
-                                               " elements, POSITION has " + std::to_string(count));
+      document_.fail(attributeField(name),
+                     "has " + std::to_string(result.size()) + " elements, POSITION has " + std::to_string(count));
     }
     return result;
   }
@@ -72,9 +71,8 @@ class PrimitiveReader {
     order = readUnsigned(document_, source_.indices, 1, field_ + ".indices");
     for (size_t i = 0; i < order.size(); ++i) {
       if (order[i] >= count) {
-        document_.fail(field_ + ".indices", "element " + std::to_string(i) + " is " +
-                                                std::to_string(order[i]) + ", out of range: there are " +
-                                                std::to_string(count) + " vertices");
+        document_.fail(field_ + ".indices", "element " + std::to_string(i) + " is " + std::to_string(order[i]) +
+                                                ", out of range: there are " + std::to_string(count) + " vertices");
       }
     }
     return order;

@@ -15,17 +15,14 @@ std::vector<glm::dmat4> jointMatrices(const Document& document, size_t skinIndex
                                       const std::vector<glm::dmat4>& fileFromNode) {
   const tinygltf::Skin& skin = document.model.skins[skinIndex];
   std::vector<glm::dmat4> matrices(skin.joints.size());
-  for (size_t i = 0; i < matrices.size(); ++i)
-    matrices[i] = fileFromNode[static_cast<size_t>(skin.joints[i])];
+  for (size_t i = 0; i < matrices.size(); ++i) matrices[i] = fileFromNode[static_cast<size_t>(skin.joints[i])];
   if (skin.inverseBindMatrices < 0) return matrices;
   const std::string field = at("skins", skinIndex, ".inverseBindMatrices");
   const std::vector<float> inverses = readFloats(document, skin.inverseBindMatrices, 16, kFloat, field);
-  if (inverses.size() < matrices.size() * 16)
-    document.fail(field, "has fewer matrices than the skin has joints");
+  if (inverses.size() < matrices.size() * 16) document.fail(field, "has fewer matrices than the skin has joints");
   for (size_t i = 0; i < matrices.size(); ++i) {
     glm::dmat4 inverse;
-    for (size_t k = 0; k < 16; ++k)
-      inverse[static_cast<int>(k / 4)][static_cast<int>(k % 4)] = inverses[i * 16 + k];
+    for (size_t k = 0; k < 16; ++k) inverse[static_cast<int>(k / 4)][static_cast<int>(k % 4)] = inverses[i * 16 + k];
     matrices[i] *= inverse;
   }
   return matrices;
@@ -81,8 +78,7 @@ void applyRestPose(Document& document, size_t mesh, size_t primitive, int skin,
     if (!std::isfinite(glm::length(glm::dvec3(target.positions[v]))))
       document.fail(field, "is skinned out of the world");
     const glm::dmat3 rotation(fileFromVertex);
-    const glm::dvec3 tangent =
-        target.tangents.empty() ? glm::dvec3(0.0) : rotation * glm::dvec3(target.tangents[v]);
+    const glm::dvec3 tangent = target.tangents.empty() ? glm::dvec3(0.0) : rotation * glm::dvec3(target.tangents[v]);
     if (glm::length(tangent) > 0.0)
       target.tangents[v] = glm::vec4(glm::vec3(glm::normalize(tangent)), target.tangents[v].w);
     if (!target.normals.empty() && std::fabs(glm::determinant(rotation)) > 0.0) {

@@ -51,9 +51,12 @@ static_assert(static_cast<uint32_t>(AlphaMode::blend) == shared::kAlphaBlend);
 
 VkSamplerAddressMode addressModeOf(Wrap wrap) {
   switch (wrap) {
-    case Wrap::repeat: return VK_SAMPLER_ADDRESS_MODE_REPEAT;
-    case Wrap::mirroredRepeat: return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
-    case Wrap::clampToEdge: return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    case Wrap::repeat:
+      return VK_SAMPLER_ADDRESS_MODE_REPEAT;
+    case Wrap::mirroredRepeat:
+      return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
+    case Wrap::clampToEdge:
+      return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
   }
   return VK_SAMPLER_ADDRESS_MODE_REPEAT;
 }
@@ -153,9 +156,9 @@ VkSampler SceneGpu::samplerFor(const Texture& texture) {
 
 void SceneGpu::makeMaterialSets(PipelineStore& pipelines, const Scene& scene) {
   const auto& vk = device_.vk();
-  const std::array<BindingKind, kMaterialTextures> kinds = {
-      BindingKind::sampledImage, BindingKind::sampledImage, BindingKind::sampledImage, BindingKind::sampledImage,
-      BindingKind::sampledImage};
+  const std::array<BindingKind, kMaterialTextures> kinds = {BindingKind::sampledImage, BindingKind::sampledImage,
+                                                            BindingKind::sampledImage, BindingKind::sampledImage,
+                                                            BindingKind::sampledImage};
   materialSetLayout_ = pipelines.setLayout(kinds);
   const auto count = static_cast<uint32_t>(scene.materials.size() + 1);
   const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, count * kMaterialTextures};

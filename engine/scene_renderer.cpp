@@ -34,8 +34,10 @@ constexpr std::array<BindingKind, 5> kSceneBindings = {BindingKind::storageBuffe
 
 rendergraph::SpirV fragmentOf(SceneEmit emit) {
   switch (emit) {
-    case SceneEmit::opaqueRadiance: return scene_opaque_radiance_frag;
-    case SceneEmit::transparentList: return scene_transparent_list_frag;
+    case SceneEmit::opaqueRadiance:
+      return scene_opaque_radiance_frag;
+    case SceneEmit::transparentList:
+      return scene_transparent_list_frag;
   }
   return {};
 }
@@ -55,8 +57,8 @@ GpuImage environmentImageOf(const Device& device, const std::optional<Environmen
     upload(device, image, environment->texels);
     return image;
   }
-  auto image = makeImage(device, {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .width = 1, .height = 1}, kUsage,
-                         "no environment");
+  auto image =
+      makeImage(device, {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .width = 1, .height = 1}, kUsage, "no environment");
   upload(device, image, std::array<std::byte, 8>{});
   return image;
 }
@@ -83,8 +85,8 @@ SceneRenderer::SceneRenderer(GraphBackend& backend, const Scene& scene, const st
                               VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "draw constants");
   lightConstants_ = hostBuffer(device_, lights_.size() * sizeof(shared::LightConstants),
                                VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "light constants");
-  sceneConstants_ = hostBuffer(device_, sizeof(shared::SceneConstants), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
-                               "scene constants");
+  sceneConstants_ =
+      hostBuffer(device_, sizeof(shared::SceneConstants), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, "scene constants");
   makeSceneSet(environment);
   setViewpoint({});
 }
@@ -151,8 +153,7 @@ void SceneRenderer::setViewpoint(const SceneViewpoint& viewpoint) {
 SceneRenderer::EmitPipeline& SceneRenderer::pipelineFor(const SceneDrawRequest& request, bool masked) {
   for (const auto& known : pipelines_) {
     if (known->emit == request.emit && known->masked == masked && known->lit == lit_ &&
-        known->depthFormat == request.depthFormat &&
-        std::ranges::equal(known->colorFormats, request.colorFormats)) {
+        known->depthFormat == request.depthFormat && std::ranges::equal(known->colorFormats, request.colorFormats)) {
       return *known;
     }
   }
@@ -203,8 +204,8 @@ void SceneRenderer::bindFrame(VkCommandBuffer commands, const SceneDrawRequest& 
   const VkBuffer vertices = gpu_.vertices();
   vk.vkCmdBindVertexBuffers(commands, 0, 1, &vertices, &offset);
   vk.vkCmdBindIndexBuffer(commands, gpu_.indices(), 0, VK_INDEX_TYPE_UINT32);
-  const VkViewport viewport{0.0f, 0.0f, static_cast<float>(request.extent.width),
-                            static_cast<float>(request.extent.height), 0.0f, 1.0f};
+  const VkViewport viewport{
+      0.0f, 0.0f, static_cast<float>(request.extent.width), static_cast<float>(request.extent.height), 0.0f, 1.0f};
   const VkRect2D scissor{{0, 0}, request.extent};
   vk.vkCmdSetViewport(commands, 0, 1, &viewport);
   vk.vkCmdSetScissor(commands, 0, 1, &scissor);

@@ -23,14 +23,14 @@ namespace engine {
 /// What of a view does not depend on the lens point.
 struct SceneViewpoint {
   glm::dmat4 viewFromWorld{1.0};
-  double metersPerUnit = 1.0;              ///< View space is in metres.
-  bool lit = false;                        ///< Shaded, or the materials' own radiance.
+  double metersPerUnit = 1.0;  ///< View space is in metres.
+  bool lit = false;            ///< Shaded, or the materials' own radiance.
 };
 
 struct SceneDrawRequest {
   shared::SceneEmit emit = shared::SceneEmit::opaqueRadiance;
   shared::ViewConstants view{};
-  VkExtent2D extent = {0, 0};  ///< px
+  VkExtent2D extent = {0, 0};              ///< px
   std::span<const VkFormat> colorFormats;  ///< Of the rendering that is going on.
   VkFormat depthFormat = VK_FORMAT_UNDEFINED;
   std::span<const rendergraph::ResolvedBinding> emitBindings;  ///< Descriptor set 2.

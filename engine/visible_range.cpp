@@ -21,7 +21,9 @@ Planes frustum(const Camera& camera, uint32_t width, uint32_t height, double mar
           glm::dvec4(0, -1, -y, 0), glm::dvec4(0, 1, -y, 0)};
 }
 
-double distance(const glm::dvec4& plane, const glm::dvec3& p) { return glm::dot(glm::dvec3(plane), p) + plane.w; }
+double distance(const glm::dvec4& plane, const glm::dvec3& p) {
+  return glm::dot(glm::dvec3(plane), p) + plane.w;
+}
 
 /// A triangle clipped by five planes has at most eight corners.
 struct Polygon {

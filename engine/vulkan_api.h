@@ -23,8 +23,7 @@ class Unique {
   using Destroy = void(VKAPI_PTR*)(VkDevice, Object, const VkAllocationCallbacks*);
 
   Unique() = default;
-  Unique(VkDevice device, Object object, Destroy destroy)
-      : device_(device), object_(object), destroy_(destroy) {}
+  Unique(VkDevice device, Object object, Destroy destroy) : device_(device), object_(object), destroy_(destroy) {}
   ~Unique() { reset(); }
   Unique(Unique&& other) noexcept
       : device_(other.device_), object_(std::exchange(other.object_, VK_NULL_HANDLE)), destroy_(other.destroy_) {}

@@ -5,14 +5,12 @@
 #include <cstring>
 #include <mutex>
 
-
 namespace engine {
 namespace {
 
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 
-VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
-                                         VkDebugUtilsMessageTypeFlagsEXT,
+VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
                                          const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
   // Layers may call from any thread that records.
   static std::mutex mutex;
@@ -45,10 +43,9 @@ bool hasExtension(const char* name) {
 
 VkDebugUtilsMessengerCreateInfoEXT messengerInfo(ValidationLog& log) {
   VkDebugUtilsMessengerCreateInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
-  info.messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT |
-                         VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
-  info.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT |
-                     VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
+  info.messageSeverity =
+      VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
+  info.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
   info.pfnUserCallback = onMessage;
   info.pUserData = &log;
   return info;
@@ -56,7 +53,9 @@ VkDebugUtilsMessengerCreateInfoEXT messengerInfo(ValidationLog& log) {
 
 }  // namespace
 
-VulkanInstance::VulkanInstance(bool validation) { create(validation); }
+VulkanInstance::VulkanInstance(bool validation) {
+  create(validation);
+}
 
 void VulkanInstance::create(bool validation) {
   if (volkInitialize() != VK_SUCCESS) {
@@ -67,7 +66,7 @@ void VulkanInstance::create(bool validation) {
   }
   if (validation && !hasLayer(kValidationLayer)) {
     throwDeviceError("validation was asked for, but VK_LAYER_KHRONOS_validation is not installed",
-                "install the package vulkan-validationlayers");
+                     "install the package vulkan-validationlayers");
   }
   const VkApplicationInfo application{.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
                                       .pNext = nullptr,

@@ -20,8 +20,8 @@ struct Projection {
 };
 
 struct DofInputs {
-  VkExtent2D extent = {0, 0};        ///< px.
-  shared::LensConstants lens{};      ///< cocScale 0 means no depth of field.
+  VkExtent2D extent = {0, 0};    ///< px.
+  shared::LensConstants lens{};  ///< cocScale 0 means no depth of field.
   shared::ApertureShape aperture{};
   Projection projection;
 

@@ -49,8 +49,7 @@ constexpr SobolMatrix vanDerCorputMatrix() {
 }
 
 constexpr std::array<SobolMatrix, 4> kSobol = {vanDerCorputMatrix(), sobolMatrix(kSobolDimensions[0]),
-                                               sobolMatrix(kSobolDimensions[1]),
-                                               sobolMatrix(kSobolDimensions[2])};
+                                               sobolMatrix(kSobolDimensions[1]), sobolMatrix(kSobolDimensions[2])};
 
 /// Scramble seeds of the four dimensions: fixed, so that a picture can be made again. Any odd-looking numbers
 /// do.
@@ -117,8 +116,7 @@ struct Polar {
 Polar concentric(double u0, double u1) {
   const double a = 2.0 * u0 - 1.0, b = 2.0 * u1 - 1.0;
   if (a == 0.0 && b == 0.0) return {0.0, 0.0};
-  Polar polar =
-      std::abs(a) > std::abs(b) ? Polar{a, kPi / 4.0 * (b / a)} : Polar{b, kPi / 2.0 - kPi / 4.0 * (a / b)};
+  Polar polar = std::abs(a) > std::abs(b) ? Polar{a, kPi / 4.0 * (b / a)} : Polar{b, kPi / 2.0 - kPi / 4.0 * (a / b)};
   if (polar.radius < 0.0) polar = {-polar.radius, polar.angle + kPi};
   return polar;
 }
@@ -136,9 +134,7 @@ Point bladeEdge(double t, double halfWedge, double curvature) {
   const double arcRadius = 1.0 / curvature;
   const double centre = a - std::sqrt(arcRadius * arcRadius - s * s);
   const double lastAngle = std::asin(s * curvature);
-  const auto twiceArea = [&](double beta) {
-    return arcRadius * (arcRadius * beta + centre * std::sin(beta));
-  };
+  const auto twiceArea = [&](double beta) { return arcRadius * (arcRadius * beta + centre * std::sin(beta)); };
   const double target = t * twiceArea(lastAngle);
   double beta = t * lastAngle;
   for (int i = 0; i < 6; ++i) {  // Newton on a nearly linear function: 4 steps reach the last digit.
@@ -187,15 +183,13 @@ shared::vec2 aperturePoint(const shared::ApertureShape& shape, double u0, double
     polar.radius = std::sqrt(-2.0 * std::log(rest));
   }
   const bool polygon = shape.bladeCount >= 3 && shape.gaussian == 0u;
-  const Point point = polygon
-                          ? polygonPoint(shape, polar)
-                          : Point{polar.radius * std::cos(polar.angle), polar.radius * std::sin(polar.angle)};
+  const Point point = polygon ? polygonPoint(shape, polar)
+                              : Point{polar.radius * std::cos(polar.angle), polar.radius * std::sin(polar.angle)};
   const double stretch = std::sqrt(static_cast<double>(shape.anamorphicRatio));
   return {static_cast<float>(point.x * stretch), static_cast<float>(-point.y / stretch)};
 }
 
-LensSample lensSample(const shared::ApertureShape& shape, LensPattern pattern, uint32_t index,
-                      bool pixelJitter) {
+LensSample lensSample(const shared::ApertureShape& shape, LensPattern pattern, uint32_t index, bool pixelJitter) {
   // A float below 0.5; u - 0.5 may round up to 0.5, which is the neighbour's pixel.
   const float last = std::nextafter(0.5f, 0.0f);
   const auto u = patternPoint(pattern, index);

@@ -23,9 +23,9 @@ enum class LensPattern : uint8_t {
 inline constexpr std::array<std::string_view, 3> kLensPatternNames = {"sobol", "halton", "r2"};
 
 struct LensSample {
-  shared::vec2 v;       ///< Lens point in units of the lens radius E; x right, y down.
-  float weight = 1.0f;  ///< apertureRingWeight, scaled to mean 1 over the set. Without the cat's eye, which
-                        ///< depends on the pixel: multiply by apertureVignette() there.
+  shared::vec2 v;            ///< Lens point in units of the lens radius E; x right, y down.
+  float weight = 1.0f;       ///< apertureRingWeight, scaled to mean 1 over the set. Without the cat's eye, which
+                             ///< depends on the pixel: multiply by apertureVignette() there.
   shared::vec2 pixelOffset;  ///< px, each in [-0.5, 0.5).
 };
 
@@ -38,8 +38,7 @@ std::array<double, 4> patternPoint(LensPattern pattern, uint32_t index);
 shared::vec2 aperturePoint(const shared::ApertureShape& shape, double u0, double u1);
 
 /// Sample `index` by itself, with its weight not normalised: for who divides by the sum of weights.
-LensSample lensSample(const shared::ApertureShape& shape, LensPattern pattern, uint32_t index,
-                      bool pixelJitter);
+LensSample lensSample(const shared::ApertureShape& shape, LensPattern pattern, uint32_t index, bool pixelJitter);
 
 /// Samples 0 … count - 1. Lens points and pixel offsets of sample i do not depend on `count`, so a set can be
 /// continued; weights do, by their normalisation. Without `pixelJitter` every offset is 0 (the pixel's

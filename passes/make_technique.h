@@ -30,16 +30,11 @@ Technique makeTechnique(const TechniqueTitle& title, TechniqueInput input) {
           .source = title.source,
           .input = input,
           .parameters = describe<Parameters>(fields()),
-          .validate =
-              [](const ParameterSet& set, const DofInputs& inputs) {
-                return validate(fromSet<Parameters>(set, fields()), inputs);
-              },
-          .declare =
-              [](rendergraph::Graph& graph, const DofInputs& inputs, const ParameterSet& set) {
-                return declare(graph, inputs, fromSet<Parameters>(set, fields()));
-              },
-          .frameCount =
-              [](const ParameterSet& set, const DofInputs& inputs) -> uint32_t {
+          .validate = [](const ParameterSet& set,
+                         const DofInputs& inputs) { return validate(fromSet<Parameters>(set, fields()), inputs); },
+          .declare = [](rendergraph::Graph& graph, const DofInputs& inputs,
+                        const ParameterSet& set) { return declare(graph, inputs, fromSet<Parameters>(set, fields())); },
+          .frameCount = [](const ParameterSet& set, const DofInputs& inputs) -> uint32_t {
             return frameCount(fromSet<Parameters>(set, fields()), inputs);
           }};
 }

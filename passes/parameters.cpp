@@ -125,8 +125,7 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
 std::vector<Problem> check(const ParameterSet& set, std::span<const ParameterInfo> known) {
   std::vector<Problem> problems;
   for (const auto& [name, value] : set) {
-    const auto found =
-        std::find_if(known.begin(), known.end(), [&](const auto& info) { return info.name == name; });
+    const auto found = std::find_if(known.begin(), known.end(), [&](const auto& info) { return info.name == name; });
     if (found != known.end()) {
       checkOne(*found, value, problems);
       continue;
@@ -194,8 +193,7 @@ std::string toString(const ParameterValue& value) {
   if (const auto* integer = std::get_if<int64_t>(&value)) return std::to_string(*integer);
   if (const auto* text = std::get_if<std::string>(&value)) return *text;
   std::array<char, 32> digits{};
-  const auto [end, error] =
-      std::to_chars(digits.data(), digits.data() + digits.size(), std::get<double>(value));
+  const auto [end, error] = std::to_chars(digits.data(), digits.data() + digits.size(), std::get<double>(value));
   return error == std::errc{} ? std::string(digits.data(), end) : std::string("?");
 }
 

@@ -27,8 +27,8 @@ enum class ParameterType : uint8_t { toggle, integer, number, choice };
 struct ParameterInfo {
   std::string_view name;
   ParameterType type = ParameterType::number;
-  std::string_view unit;         ///< "px", "m", …; empty when it has none.
-  double min = 0.0, max = 0.0;   ///< Inclusive; numbers and integers.
+  std::string_view unit;        ///< "px", "m", …; empty when it has none.
+  double min = 0.0, max = 0.0;  ///< Inclusive; numbers and integers.
   std::vector<std::string_view> choices;
   ParameterValue defaultValue;
   std::string_view description;  ///< What it does and what it costs.
@@ -62,8 +62,12 @@ struct MemberOf<Member Class::*> {
 /// A bool member.
 template <auto member, class Owner = typename detail::MemberOf<decltype(member)>::Owner>
 Field<Owner> toggle(std::string_view name, std::string_view description) {
-  return {{.name = name, .type = ParameterType::toggle, .unit = "", .choices = {},
-           .defaultValue = Owner{}.*member, .description = description},
+  return {{.name = name,
+           .type = ParameterType::toggle,
+           .unit = "",
+           .choices = {},
+           .defaultValue = Owner{}.*member,
+           .description = description},
           [](const Owner& owner) -> ParameterValue { return owner.*member; },
           [](Owner& owner, const ParameterValue& value) { owner.*member = std::get<bool>(value); }};
 }
@@ -75,25 +79,32 @@ Field<Owner> number(std::string_view name, std::string_view unit, double min, do
   using Type = typename detail::MemberOf<decltype(member)>::Type;
   using Stored = std::conditional_t<std::is_integral_v<Type>, int64_t, double>;
   constexpr auto type = std::is_integral_v<Type> ? ParameterType::integer : ParameterType::number;
-  return {{.name = name, .type = type, .unit = unit, .min = min, .max = max, .choices = {},
-           .defaultValue = static_cast<Stored>(Owner{}.*member), .description = description},
-          [](const Owner& owner) -> ParameterValue { return static_cast<Stored>(owner.*member); },
-          [](Owner& owner, const ParameterValue& value) {
-            owner.*member = static_cast<Type>(std::get<Stored>(value));
-          }};
+  return {
+      {.name = name,
+       .type = type,
+       .unit = unit,
+       .min = min,
+       .max = max,
+       .choices = {},
+       .defaultValue = static_cast<Stored>(Owner{}.*member),
+       .description = description},
+      [](const Owner& owner) -> ParameterValue { return static_cast<Stored>(owner.*member); },
+      [](Owner& owner, const ParameterValue& value) { owner.*member = static_cast<Type>(std::get<Stored>(value)); }};
 }
 
 /// An enum member whose values 0, 1, … have these names. `choiceNames` points to a static array of names.
-template <auto member, const auto& choiceNames,
-          class Owner = typename detail::MemberOf<decltype(member)>::Owner>
+template <auto member, const auto& choiceNames, class Owner = typename detail::MemberOf<decltype(member)>::Owner>
 Field<Owner> choice(std::string_view name, std::string_view description) {
   using Type = typename detail::MemberOf<decltype(member)>::Type;
   static constexpr auto nameOf = [](Type value) {
     return ParameterValue(std::string(choiceNames[static_cast<std::size_t>(value)]));
   };
-  return {{.name = name, .type = ParameterType::choice, .unit = "",
+  return {{.name = name,
+           .type = ParameterType::choice,
+           .unit = "",
            .choices = {std::begin(choiceNames), std::end(choiceNames)},
-           .defaultValue = nameOf(Owner{}.*member), .description = description},
+           .defaultValue = nameOf(Owner{}.*member),
+           .description = description},
           [](const Owner& owner) -> ParameterValue { return nameOf(owner.*member); },
           [](Owner& owner, const ParameterValue& value) {
             for (std::size_t i = 0; i < std::size(choiceNames); ++i) {

@@ -20,8 +20,7 @@ std::span<const Technique> techniques() {
 
 const Technique* findTechnique(std::string_view name) {
   const auto all = techniques();
-  const auto found =
-      std::find_if(all.begin(), all.end(), [&](const Technique& one) { return one.name == name; });
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Technique& one) { return one.name == name; });
   return found == all.end() ? nullptr : &*found;
 }
 

@@ -26,8 +26,7 @@ struct Technique {
   /// Problems that need the inputs to be seen (after check() of the set by itself). Pure.
   std::vector<Problem> (*validate)(const ParameterSet& parameters, const DofInputs& inputs) = nullptr;
   /// Declares the technique's nodes. Precondition: check() and validate() found nothing.
-  DofOutputs (*declare)(rendergraph::Graph& graph, const DofInputs& inputs,
-                        const ParameterSet& parameters) = nullptr;
+  DofOutputs (*declare)(rendergraph::Graph& graph, const DofInputs& inputs, const ParameterSet& parameters) = nullptr;
   /// Executions of the graph that make one finished picture, DofInputs::frame counting them; 1 for most.
   uint32_t (*frameCount)(const ParameterSet& parameters, const DofInputs& inputs) = nullptr;
 };

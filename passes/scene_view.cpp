@@ -37,9 +37,8 @@ VkDeviceSize nodeBytes(const DofInputs& inputs) {
 Lists declareCollect(Graph& graph, const DofInputs& inputs, const std::string& prefix,
                      const shared::ViewConstants& view, Image depth) {
   Lists lists;
-  lists.heads = graph.createImage(prefix + ".heads", {.format = VK_FORMAT_R32_UINT,
-                                                      .width = inputs.extent.width,
-                                                      .height = inputs.extent.height});
+  lists.heads = graph.createImage(
+      prefix + ".heads", {.format = VK_FORMAT_R32_UINT, .width = inputs.extent.width, .height = inputs.extent.height});
   lists.nodes = graph.createBuffer(prefix + ".nodes", {.size = nodeBytes(inputs)});
   lists.allocator = graph.createBuffer(prefix + ".allocator", {.size = sizeof(uint32_t)});
   auto clear = graph.addPass(prefix + ".clear_lists", PassKind::transfer);
@@ -59,10 +58,9 @@ Lists declareCollect(Graph& graph, const DofInputs& inputs, const std::string& p
   collect.record([scene = inputs.scene, extent = inputs.extent, view, lists](PassContext& context) {
     const std::array bindings = {rendergraph::storage(lists.heads), rendergraph::storage(lists.nodes),
                                  rendergraph::storage(lists.allocator)};
-    scene->record(context, {.emit = shared::SceneEmit::transparentList,
-                            .view = view,
-                            .extent = extent,
-                            .emitBindings = bindings});
+    scene->record(
+        context,
+        {.emit = shared::SceneEmit::transparentList, .view = view, .extent = extent, .emitBindings = bindings});
   });
   return lists;
 }

@@ -56,29 +56,31 @@ DofOutputs declareResolve(Graph& graph, const DofInputs& inputs, const std::stri
   const auto [width, height] = inputs.extent;
   DofOutputs out;
   out.color = graph.createImage(prefix + ".color", {.format = kViewColorFormat, .width = width, .height = height});
-  out.standardError = graph.createImage(prefix + ".standard_error",
-                                        {.format = VK_FORMAT_R32_SFLOAT, .width = width, .height = height});
+  out.standardError =
+      graph.createImage(prefix + ".standard_error", {.format = VK_FORMAT_R32_SFLOAT, .width = width, .height = height});
   auto pass = graph.addPass(prefix + ".resolve", PassKind::compute);
   pass.read(running.mean, Usage::storage);
   pass.read(running.spread, Usage::storage);
   out.color = pass.write(out.color, Usage::storage);
   out.standardError = pass.write(out.standardError, Usage::storage);
   const shared::ResolvePush push{.extent = {width, height}, .viewCount = views};
-  pass.record([running, color = out.color, error = out.standardError, push, extent = inputs.extent](
-                  PassContext& context) {
-    const std::array bindings = {rendergraph::storage(running.mean), rendergraph::storage(running.spread),
-                                 rendergraph::storage(color), rendergraph::storage(error)};
-    context.dispatch({.program = kResolve,
-                      .bindings = bindings,
-                      .pushConstants = rendergraph::bytesOf(push),
-                      .groups = rendergraph::groupsFor(extent, shared::kAccumulationTile)});
-  });
+  pass.record(
+      [running, color = out.color, error = out.standardError, push, extent = inputs.extent](PassContext& context) {
+        const std::array bindings = {rendergraph::storage(running.mean), rendergraph::storage(running.spread),
+                                     rendergraph::storage(color), rendergraph::storage(error)};
+        context.dispatch({.program = kResolve,
+                          .bindings = bindings,
+                          .pushConstants = rendergraph::bytesOf(push),
+                          .groups = rendergraph::groupsFor(extent, shared::kAccumulationTile)});
+      });
   return out;
 }
 
 }  // namespace
 
-uint32_t frameCount(const ViewMean& mean) { return (mean.viewCount + mean.viewsPerFrame - 1) / mean.viewsPerFrame; }
+uint32_t frameCount(const ViewMean& mean) {
+  return (mean.viewCount + mean.viewsPerFrame - 1) / mean.viewsPerFrame;
+}
 
 DofOutputs declareViewMean(Graph& graph, const DofInputs& inputs, const ViewMean& mean) {
   const auto [width, height] = inputs.extent;

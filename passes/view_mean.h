@@ -11,9 +11,9 @@
 namespace passes {
 
 struct ViewMean {
-  std::string prefix;            ///< Of pass and resource names; also names what persists across executions.
-  uint32_t viewCount = 1;        ///< Views of the finished picture.
-  uint32_t viewsPerFrame = 8;    ///< Views of one execution.
+  std::string prefix;          ///< Of pass and resource names; also names what persists across executions.
+  uint32_t viewCount = 1;      ///< Views of the finished picture.
+  uint32_t viewsPerFrame = 8;  ///< Views of one execution.
   std::function<LensSample(uint32_t view)> sample;  ///< Called while declaring.
 };
 

@@ -32,9 +32,9 @@ constexpr std::array<Row, 12> kTable = {{
      VK_IMAGE_USAGE_SAMPLED_BIT, 0},
     {"storage", 0, VK_ACCESS_2_SHADER_STORAGE_READ_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, 0,
      VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_USAGE_STORAGE_BIT, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT},
-    {"color attachment", VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
-     VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT, VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT, 0,
-     VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, 0},
+    {"color attachment", VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT,
+     VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT, 0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+     VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, 0},
     {"depth attachment", kDepthStages, kDepthRead, kDepthWrite, kDepthRead, kDepthLayout,
      VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, 0},
     {"read-only depth attachment", kDepthStages, kDepthRead, 0, 0, kDepthReadLayout,
@@ -49,8 +49,8 @@ constexpr std::array<Row, 12> kTable = {{
      VK_IMAGE_LAYOUT_UNDEFINED, 0, VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT},
     {"vertex", VK_PIPELINE_STAGE_2_VERTEX_ATTRIBUTE_INPUT_BIT, VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT, 0, 0,
      VK_IMAGE_LAYOUT_UNDEFINED, 0, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT},
-    {"index", VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT, VK_ACCESS_2_INDEX_READ_BIT, 0, 0, VK_IMAGE_LAYOUT_UNDEFINED,
-     0, VK_BUFFER_USAGE_INDEX_BUFFER_BIT},
+    {"index", VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT, VK_ACCESS_2_INDEX_READ_BIT, 0, 0, VK_IMAGE_LAYOUT_UNDEFINED, 0,
+     VK_BUFFER_USAGE_INDEX_BUFFER_BIT},
     // The host needs no usage flag; a buffer that only the host touches must still be creatable.
     {"host", VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT, VK_ACCESS_2_HOST_WRITE_BIT, 0,
      VK_IMAGE_LAYOUT_UNDEFINED, 0, VK_BUFFER_USAGE_TRANSFER_SRC_BIT},
@@ -70,7 +70,9 @@ AccessRules rulesOf(Usage usage, AccessMode mode, VkPipelineStageFlags2 shaderSt
           .bufferUsage = row.bufferUsage};
 }
 
-bool usesShaderStages(Usage usage) { return kTable[static_cast<std::size_t>(usage)].stages == 0; }
+bool usesShaderStages(Usage usage) {
+  return kTable[static_cast<std::size_t>(usage)].stages == 0;
+}
 
 bool allows(Usage usage, AccessMode mode) {
   const Row& row = kTable[static_cast<std::size_t>(usage)];
@@ -78,7 +80,9 @@ bool allows(Usage usage, AccessMode mode) {
   return mode == AccessMode::read ? row.read != 0 : row.write != 0;
 }
 
-bool writesMemory(VkAccessFlags2 access) { return (access & kWriteAccess) != 0; }
+bool writesMemory(VkAccessFlags2 access) {
+  return (access & kWriteAccess) != 0;
+}
 
 VkImageLayout combinedLayout(VkImageLayout a, VkImageLayout b) {
   if (a == b) return a;
@@ -90,13 +94,18 @@ VkImageLayout combinedLayout(VkImageLayout a, VkImageLayout b) {
   return VK_IMAGE_LAYOUT_GENERAL;
 }
 
-std::string_view nameOf(Usage usage) { return kTable[static_cast<std::size_t>(usage)].name; }
+std::string_view nameOf(Usage usage) {
+  return kTable[static_cast<std::size_t>(usage)].name;
+}
 
 std::string_view nameOf(AccessMode mode) {
   switch (mode) {
-    case AccessMode::read: return "read";
-    case AccessMode::write: return "write";
-    case AccessMode::modify: return "modify";
+    case AccessMode::read:
+      return "read";
+    case AccessMode::write:
+      return "write";
+    case AccessMode::modify:
+      return "modify";
   }
   return "?";
 }

@@ -36,9 +36,9 @@ enum class AccessMode : uint8_t {
 struct AccessRules {
   VkPipelineStageFlags2 stages;
   VkAccessFlags2 access;
-  VkImageLayout layout;               ///< UNDEFINED for buffers.
-  VkImageUsageFlags imageUsage;       ///< 0 when an image cannot be used so.
-  VkBufferUsageFlags bufferUsage;     ///< 0 when a buffer cannot be used so.
+  VkImageLayout layout;            ///< UNDEFINED for buffers.
+  VkImageUsageFlags imageUsage;    ///< 0 when an image cannot be used so.
+  VkBufferUsageFlags bufferUsage;  ///< 0 when a buffer cannot be used so.
 };
 
 /// `shaderStages`: stages that touch the resource for shader usages; ignored for fixed-function usages.

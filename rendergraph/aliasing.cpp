@@ -26,9 +26,8 @@ class Conflicts {
   explicit Conflicts(std::span<const AliasItem> items) : starts_(items.size() + 1, 0) {
     std::vector<uint32_t> byStart(items.size());
     std::iota(byStart.begin(), byStart.end(), 0u);
-    std::sort(byStart.begin(), byStart.end(), [&](uint32_t a, uint32_t b) {
-      return std::pair(items[a].first, a) < std::pair(items[b].first, b);
-    });
+    std::sort(byStart.begin(), byStart.end(),
+              [&](uint32_t a, uint32_t b) { return std::pair(items[a].first, a) < std::pair(items[b].first, b); });
     std::vector<std::pair<uint32_t, uint32_t>> pairs;
     std::vector<uint32_t> active;
     for (uint32_t item : byStart) {
@@ -172,8 +171,7 @@ class Improver {
 
   void promote(Ranking& ranking, uint32_t item) {
     const auto place = std::find(ranking.begin(), ranking.end(), item);
-    const auto target =
-        ranking.begin() + random_.below(static_cast<uint32_t>(place - ranking.begin()) + 1);
+    const auto target = ranking.begin() + random_.below(static_cast<uint32_t>(place - ranking.begin()) + 1);
     std::rotate(target, place, place + 1);
   }
 

@@ -11,8 +11,8 @@
 namespace rendergraph {
 
 struct AliasItem {
-  VkDeviceSize size = 0;       ///< Bytes, at least 1.
-  VkDeviceSize alignment = 1;  ///< Bytes, a power of two.
+  VkDeviceSize size = 0;         ///< Bytes, at least 1.
+  VkDeviceSize alignment = 1;    ///< Bytes, a power of two.
   uint32_t first = 0, last = 0;  ///< Steps during which it is alive, inclusive.
 };
 

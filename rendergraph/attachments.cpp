@@ -26,9 +26,12 @@ bool readLater(const Declaration& declaration, const Cells& cells, const Timelin
 
 VkAttachmentLoadOp loadOpOf(LoadOp load) {
   switch (load) {
-    case LoadOp::clear: return VK_ATTACHMENT_LOAD_OP_CLEAR;
-    case LoadOp::load: return VK_ATTACHMENT_LOAD_OP_LOAD;
-    case LoadOp::dontCare: return VK_ATTACHMENT_LOAD_OP_DONT_CARE;
+    case LoadOp::clear:
+      return VK_ATTACHMENT_LOAD_OP_CLEAR;
+    case LoadOp::load:
+      return VK_ATTACHMENT_LOAD_OP_LOAD;
+    case LoadOp::dontCare:
+      return VK_ATTACHMENT_LOAD_OP_DONT_CARE;
   }
   return VK_ATTACHMENT_LOAD_OP_LOAD;
 }

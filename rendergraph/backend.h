@@ -70,8 +70,8 @@ class Backend : public DeviceFacts {
   virtual VkImage createImage(const ImageDesc& desc, VkImageUsageFlags usage, HeapId heap, VkDeviceSize offset,
                               std::string_view name) = 0;
   virtual void destroyImage(VkImage image) = 0;
-  virtual VkBuffer createBuffer(const BufferDesc& desc, VkBufferUsageFlags usage, HeapId heap,
-                                VkDeviceSize offset, std::string_view name) = 0;
+  virtual VkBuffer createBuffer(const BufferDesc& desc, VkBufferUsageFlags usage, HeapId heap, VkDeviceSize offset,
+                                std::string_view name) = 0;
   virtual void destroyBuffer(VkBuffer buffer) = 0;
   virtual VkImageView createView(const ViewDesc& desc, std::string_view name) = 0;
   virtual void destroyView(VkImageView view) = 0;

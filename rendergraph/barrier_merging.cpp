@@ -17,10 +17,9 @@ auto meaningOf(const PlacedBarrier& placed) {
 /// `key` sorts barriers so that those to be joined stand side by side; `join` extends the first by the second.
 template <class Key, class Join>
 void sweep(std::vector<PlacedBarrier>& barriers, Key&& key, Join&& join) {
-  std::sort(barriers.begin(), barriers.end(),
-            [&](const PlacedBarrier& a, const PlacedBarrier& b) {
-              return std::tuple(meaningOf(a), key(a.barrier.range)) < std::tuple(meaningOf(b), key(b.barrier.range));
-            });
+  std::sort(barriers.begin(), barriers.end(), [&](const PlacedBarrier& a, const PlacedBarrier& b) {
+    return std::tuple(meaningOf(a), key(a.barrier.range)) < std::tuple(meaningOf(b), key(b.barrier.range));
+  });
   std::size_t kept = 0;
   for (std::size_t i = 1; i < barriers.size(); ++i) {
     const bool joined = meaningOf(barriers[kept]) == meaningOf(barriers[i]) &&
@@ -55,9 +54,7 @@ void mergeRanges(std::vector<PlacedBarrier>& barriers) {
       });
   sweep(
       barriers,
-      [](const Subresources& r) {
-        return std::tuple(r.firstLayer, r.layerCount, r.firstMip, r.mipCount, r.aspects);
-      },
+      [](const Subresources& r) { return std::tuple(r.firstLayer, r.layerCount, r.firstMip, r.mipCount, r.aspects); },
       [](Subresources& a, const Subresources& b) {
         Subresources same = b;
         same.aspects = a.aspects;

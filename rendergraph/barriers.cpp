@@ -36,10 +36,10 @@ VkPipelineStageFlags2 expandedStages(VkPipelineStageFlags2 stages) {
   constexpr VkPipelineStageFlags2 kVertexInput =
       VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT | VK_PIPELINE_STAGE_2_VERTEX_ATTRIBUTE_INPUT_BIT;
   constexpr VkPipelineStageFlags2 kGraphics =
-      VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT | kVertexInput | kPreRaster |
-      VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT | VK_PIPELINE_STAGE_2_PRE_RASTERIZATION_SHADERS_BIT |
-      VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT |
-      VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT;
+      VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT | kVertexInput | kPreRaster | VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT |
+      VK_PIPELINE_STAGE_2_PRE_RASTERIZATION_SHADERS_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT |
+      VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT |
+      VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT;
   if ((stages & VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT) != 0) return ~VkPipelineStageFlags2{0};
   if ((stages & VK_PIPELINE_STAGE_2_ALL_GRAPHICS_BIT) != 0) stages |= kGraphics;
   if ((stages & VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT) != 0) stages |= kVertexInput;
@@ -79,8 +79,7 @@ class Visibility {
   bool covers(VkPipelineStageFlags2 stages, VkAccessFlags2 access) const {
     if (everything_) return true;
     for (std::size_t i = 0; i < count_; ++i) {
-      if ((expandedStages(stages) & ~scopes_[i].stages) == 0 &&
-          (expandedAccess(access) & ~scopes_[i].access) == 0) {
+      if ((expandedStages(stages) & ~scopes_[i].stages) == 0 && (expandedAccess(access) & ~scopes_[i].access) == 0) {
         return true;
       }
     }
@@ -140,7 +139,7 @@ AccessPoint scopeAfter(const Epoch& epoch) {
 
 struct CellState {
   VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
-  AccessPoint last;  ///< Stages 0: nothing to wait for.
+  AccessPoint last;    ///< Stages 0: nothing to wait for.
   bool wrote = false;  ///< `last` wrote and nobody has waited for it yet.
   bool alias = false;
   Visibility visible = Visibility::toEverything();

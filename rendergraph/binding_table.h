@@ -13,8 +13,8 @@ class ViewCache;
 struct Bound {
   VkImage image = VK_NULL_HANDLE;
   VkBuffer buffer = VK_NULL_HANDLE;
-  ViewCache* views = nullptr;     ///< Where its views live.
-  std::byte* address = nullptr;   ///< Of host-visible buffers.
+  ViewCache* views = nullptr;    ///< Where its views live.
+  std::byte* address = nullptr;  ///< Of host-visible buffers.
 };
 
 using BindingTable = std::vector<Bound>;  ///< By resource of the declaration.

@@ -51,9 +51,12 @@ CapturedPass countsOf(const Declaration& declaration, const PlannedPass& planned
 
 const char* nameOf(Timing timing) {
   switch (timing) {
-    case Timing::none: return "none";
-    case Timing::inlineTimestamps: return "inline";
-    case Timing::isolated: return "isolated";
+    case Timing::none:
+      return "none";
+    case Timing::inlineTimestamps:
+      return "inline";
+    case Timing::isolated:
+      return "isolated";
   }
   return "?";
 }
@@ -74,8 +77,8 @@ void writeJson(std::ostream& out, const Capture& capture) {
       << ",\n  \"frameWallMs\": " << capture.frameWallMs
       << ",\n  \"planReused\": " << (capture.planReused ? "true" : "false")
       << ",\n  \"memory\": {\"peakBytes\": " << capture.memory.peakBytes
-      << ", \"unaliasedBytes\": " << capture.memory.unaliasedBytes
-      << ", \"lowerBound\": " << capture.memory.lowerBound << "},\n  \"passes\": [";
+      << ", \"unaliasedBytes\": " << capture.memory.unaliasedBytes << ", \"lowerBound\": " << capture.memory.lowerBound
+      << "},\n  \"passes\": [";
   const char* separator = "\n";
   for (const CapturedPass& pass : capture.passes) {
     out << separator << "    {\"name\": " << jsonString(pass.name) << ", \"gpuMs\": " << pass.gpuMs

@@ -14,9 +14,9 @@ namespace rendergraph {
 
 struct CapturedPass {
   std::string name;
-  double gpuMs = -1.0;        ///< Device time; negative when not measured.
-  double recordMs = 0.0;      ///< Host time of recording.
-  VkDeviceSize bytesRead = 0;     ///< Sizes of the subresources declared as read, each counted once.
+  double gpuMs = -1.0;         ///< Device time; negative when not measured.
+  double recordMs = 0.0;       ///< Host time of recording.
+  VkDeviceSize bytesRead = 0;  ///< Sizes of the subresources declared as read, each counted once.
   VkDeviceSize bytesWritten = 0;
   uint32_t imageBarriers = 0;
   uint32_t bufferBarriers = 0;
@@ -24,7 +24,7 @@ struct CapturedPass {
 };
 
 struct Capture {
-  std::string timing;  ///< "none", "inline", "isolated".
+  std::string timing;        ///< "none", "inline", "isolated".
   double frameGpuMs = -1.0;  ///< First to last timestamp, or the sum of isolated passes.
   double frameWallMs = 0.0;  ///< Host: compile, record, submit, wait.
   bool planReused = false;

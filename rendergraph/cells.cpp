@@ -28,12 +28,11 @@ void Cells::addGrid(const Declaration& declaration, uint32_t resource) {
   grid.firstCell = count_;
   grid.aspects = declared.aspects;
   std::vector<uint32_t> mipCuts, layerCuts;
-  if (declared.isImage && (declared.image.mips > 1 || declared.image.layers > 1 ||
-                           (declared.aspects & (declared.aspects - 1)) != 0)) {
+  if (declared.isImage &&
+      (declared.image.mips > 1 || declared.image.layers > 1 || (declared.aspects & (declared.aspects - 1)) != 0)) {
     for (const DeclaredAccess& access : declaration.accessesOfResource(resource)) {
       mipCuts.insert(mipCuts.end(), {access.range.firstMip, access.range.firstMip + access.range.mipCount});
-      layerCuts.insert(layerCuts.end(),
-                       {access.range.firstLayer, access.range.firstLayer + access.range.layerCount});
+      layerCuts.insert(layerCuts.end(), {access.range.firstLayer, access.range.firstLayer + access.range.layerCount});
       if (access.range.aspects != declared.aspects) grid.aspectParts = 2;  // Depth, then stencil.
     }
   }
@@ -68,8 +67,7 @@ Cells::Span Cells::spanOf(const Axis& axis, uint32_t first, uint32_t count) cons
 
 Cells::Span Cells::aspectSpan(const Grid& grid, VkImageAspectFlags aspects) const {
   if (grid.aspectParts == 1) return {0, 1};
-  return {(aspects & VK_IMAGE_ASPECT_DEPTH_BIT) != 0 ? 0u : 1u,
-          (aspects & VK_IMAGE_ASPECT_STENCIL_BIT) != 0 ? 2u : 1u};
+  return {(aspects & VK_IMAGE_ASPECT_DEPTH_BIT) != 0 ? 0u : 1u, (aspects & VK_IMAGE_ASPECT_STENCIL_BIT) != 0 ? 2u : 1u};
 }
 
 Subresources Cells::rangeOf(uint32_t resource, uint32_t cell) const {

@@ -52,8 +52,10 @@ std::vector<ResourceUse> findUses(const Declaration& declaration, const std::vec
       use.image |= VK_IMAGE_USAGE_TRANSFER_DST_BIT;
       use.buffer |= VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     }
-    if (resource.isImage) use.buffer = 0;
-    else use.image = 0;
+    if (resource.isImage)
+      use.buffer = 0;
+    else
+      use.image = 0;
     if (!resource.created()) continue;
     use.requirements = resource.isImage ? device.requirements(resource.image, use.image)
                                         : device.requirements(resource.buffer, use.buffer);
@@ -170,8 +172,8 @@ Plan compile(const Declaration& declaration, const CompileOptions& options, cons
 
   std::vector<VkDeviceSize> bytes;
   for (const ResourceUse& use : uses) bytes.push_back(use.requirements.size);
-  const std::vector<uint32_t> order = orderPasses(
-      declaration, culling.alive, orderingEdges(declaration, cells, culling.alive), bytes, options.order);
+  const std::vector<uint32_t> order =
+      orderPasses(declaration, culling.alive, orderingEdges(declaration, cells, culling.alive), bytes, options.order);
   if (order.size() + culling.culled.size() != declaration.passes.size()) {
     throwCycle(declaration, culling.alive, order);
   }

@@ -21,7 +21,7 @@ struct MemoryRequirements {
 class DeviceFacts {
  public:
   virtual ~DeviceFacts() = default;
-  virtual uint32_t maxImageSize() const { return 16384; }   ///< px.
+  virtual uint32_t maxImageSize() const { return 16384; }  ///< px.
   virtual uint32_t maxImageLayers() const { return 2048; }
   virtual VkDeviceSize maxBufferSize() const { return VkDeviceSize{1} << 31; }
   virtual MemoryRequirements requirements(const ImageDesc& desc, VkImageUsageFlags usage) const = 0;

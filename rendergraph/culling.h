@@ -13,8 +13,8 @@ class Cells;
 struct DataFlow;
 
 struct Culling {
-  std::vector<uint8_t> alive;       ///< By pass.
-  std::vector<CulledPass> culled;   ///< In order of declaration, each with its reason.
+  std::vector<uint8_t> alive;      ///< By pass.
+  std::vector<CulledPass> culled;  ///< In order of declaration, each with its reason.
 };
 
 /// A pass lives when it has a side effect, writes something imported or persistent, leaves content in an exported

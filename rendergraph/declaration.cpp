@@ -21,7 +21,9 @@ uint32_t nextSerial() {
 
 Declaration::Declaration() : serial(nextSerial()) {}
 
-Declaration::~Declaration() { destroyRecordings(); }
+Declaration::~Declaration() {
+  destroyRecordings();
+}
 
 void Declaration::destroyRecordings() {
   for (DeclaredPass& pass : passes) {

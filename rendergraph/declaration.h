@@ -37,7 +37,7 @@ struct DeclaredResource {
   bool isImage = true;
   Origin origin = Origin::created;
   bool exported = false;
-  uint32_t version = 0;  ///< Writes so far.
+  uint32_t version = 0;                              ///< Writes so far.
   uint32_t firstAccess = kNone, lastAccess = kNone;  ///< Linked through DeclaredAccess::nextOfResource.
   ImageDesc image;
   BufferDesc buffer;
@@ -90,7 +90,7 @@ struct DeclaredPass {
   QueuePreference queue = QueuePreference::graphics;
   bool sideEffect = false;
   uint32_t firstAccess = kNone, lastAccess = kNone;  ///< Linked through DeclaredAccess::nextOfPass.
-  VkExtent2D renderArea = {0, 0};  ///< Raster: of the attachments, or as declared.
+  VkExtent2D renderArea = {0, 0};                    ///< Raster: of the attachments, or as declared.
   uint32_t renderLayers = 1;
   bool hasAttachments = false;
   void* recording = nullptr;
@@ -148,8 +148,8 @@ struct Declaration {
   void report(Misuse misuse, uint32_t pass, uint32_t resource, std::string reason, std::string remedy,
               std::source_location where);
   /// The same as data.
-  GraphError::Problem problem(Misuse misuse, uint32_t pass, uint32_t resource, std::string reason,
-                              std::string remedy, std::source_location where) const;
+  GraphError::Problem problem(Misuse misuse, uint32_t pass, uint32_t resource, std::string reason, std::string remedy,
+                              std::source_location where) const;
 
   /// Index of the resource that a handle names. Throws GraphError (unknownHandle, foreignHandle) when it names
   /// none of this declaration; nothing sensible could follow such a handle.

@@ -62,8 +62,7 @@ class Readers {
 
 }  // namespace
 
-std::vector<Edge> orderingEdges(const Declaration& declaration, const Cells& cells,
-                                std::span<const uint8_t> alive) {
+std::vector<Edge> orderingEdges(const Declaration& declaration, const Cells& cells, std::span<const uint8_t> alive) {
   std::vector<Edge> edges;
   std::vector<uint32_t> writers(cells.count(), kNone);
   Readers readers(cells.count());

@@ -38,7 +38,6 @@ DataFlow dataFlow(const Declaration& declaration, const Cells& cells);
 
 /// Why pass order matters: read after write, write after read, write after write; among the living passes only.
 /// May name the same pair more than once.
-std::vector<Edge> orderingEdges(const Declaration& declaration, const Cells& cells,
-                                std::span<const uint8_t> alive);
+std::vector<Edge> orderingEdges(const Declaration& declaration, const Cells& cells, std::span<const uint8_t> alive);
 
 }  // namespace rendergraph

@@ -16,49 +16,69 @@ namespace {
 
 std::string_view nameOf(PassKind kind) {
   switch (kind) {
-    case PassKind::raster: return "raster";
-    case PassKind::compute: return "compute";
-    case PassKind::transfer: return "transfer";
-    case PassKind::host: return "host";
+    case PassKind::raster:
+      return "raster";
+    case PassKind::compute:
+      return "compute";
+    case PassKind::transfer:
+      return "transfer";
+    case PassKind::host:
+      return "host";
   }
   return "?";
 }
 
 std::string_view nameOf(Origin origin) {
   switch (origin) {
-    case Origin::created: return "created";
-    case Origin::imported: return "imported";
-    case Origin::persistent: return "persistent";
-    case Origin::historyPrevious: return "history previous";
-    case Origin::historyNext: return "history next";
+    case Origin::created:
+      return "created";
+    case Origin::imported:
+      return "imported";
+    case Origin::persistent:
+      return "persistent";
+    case Origin::historyPrevious:
+      return "history previous";
+    case Origin::historyNext:
+      return "history next";
   }
   return "?";
 }
 
 std::string_view nameOf(BarrierReason reason) {
   switch (reason) {
-    case BarrierReason::readAfterWrite: return "read after write";
-    case BarrierReason::writeAfterRead: return "write after read";
-    case BarrierReason::writeAfterWrite: return "write after write";
-    case BarrierReason::layout: return "layout";
-    case BarrierReason::alias: return "alias";
+    case BarrierReason::readAfterWrite:
+      return "read after write";
+    case BarrierReason::writeAfterRead:
+      return "write after read";
+    case BarrierReason::writeAfterWrite:
+      return "write after write";
+    case BarrierReason::layout:
+      return "layout";
+    case BarrierReason::alias:
+      return "alias";
   }
   return "?";
 }
 
 std::string_view nameOf(VkAttachmentLoadOp load) {
   switch (load) {
-    case VK_ATTACHMENT_LOAD_OP_LOAD: return "load";
-    case VK_ATTACHMENT_LOAD_OP_CLEAR: return "clear";
-    default: return "dontCare";
+    case VK_ATTACHMENT_LOAD_OP_LOAD:
+      return "load";
+    case VK_ATTACHMENT_LOAD_OP_CLEAR:
+      return "clear";
+    default:
+      return "dontCare";
   }
 }
 
 std::string_view nameOf(VkAttachmentStoreOp store) {
   switch (store) {
-    case VK_ATTACHMENT_STORE_OP_STORE: return "store";
-    case VK_ATTACHMENT_STORE_OP_NONE: return "none";
-    default: return "dontCare";
+    case VK_ATTACHMENT_STORE_OP_STORE:
+      return "store";
+    case VK_ATTACHMENT_STORE_OP_NONE:
+      return "none";
+    default:
+      return "dontCare";
   }
 }
 
@@ -111,14 +131,13 @@ void writeBatch(std::ostream& out, const Words& words, const BarrierBatch& batch
 }
 
 void writeAttachment(std::ostream& out, const Words& words, const PlannedAttachment& attachment) {
-  out << "  attachment " << words.resource(attachment.resource)
-      << words.range(attachment.resource, attachment.range) << ": " << nameOf(attachment.load) << ", "
-      << nameOf(attachment.store) << ", " << layoutName(attachment.layout) << "\n";
+  out << "  attachment " << words.resource(attachment.resource) << words.range(attachment.resource, attachment.range)
+      << ": " << nameOf(attachment.load) << ", " << nameOf(attachment.store) << ", " << layoutName(attachment.layout)
+      << "\n";
 }
 
 void writePoint(std::ostream& out, const Words& words, const AccessPoint& point) {
-  out << "{\"pass\": " << jsonString(words.pass(point.pass))
-      << ", \"stages\": " << jsonString(stageNames(point.stages))
+  out << "{\"pass\": " << jsonString(words.pass(point.pass)) << ", \"stages\": " << jsonString(stageNames(point.stages))
       << ", \"access\": " << jsonString(accessNames(point.access)) << "}";
 }
 
@@ -138,8 +157,8 @@ void writeBatchJson(std::ostream& out, const Words& words, const BarrierBatch& b
     out << separator;
     writeBarrierJson(out, words, barrier);
     const Subresources& range = barrier.range;
-    out << ", \"mips\": [" << range.firstMip << ", " << range.mipCount << "], \"layers\": [" << range.firstLayer
-        << ", " << range.layerCount << "], \"oldLayout\": " << jsonString(layoutName(barrier.oldLayout))
+    out << ", \"mips\": [" << range.firstMip << ", " << range.mipCount << "], \"layers\": [" << range.firstLayer << ", "
+        << range.layerCount << "], \"oldLayout\": " << jsonString(layoutName(barrier.oldLayout))
         << ", \"newLayout\": " << jsonString(layoutName(barrier.newLayout)) << "}";
     separator = ", ";
   }
@@ -208,9 +227,8 @@ void writeMemoryJson(std::ostream& out, const Words& words, const Plan& plan) {
   const char* separator = "\n";
   for (const Placement& placement : plan.placements) {
     out << separator << "    {\"name\": " << jsonString(words.resource(placement.resource))
-        << ", \"heap\": " << placement.heap << ", \"offset\": " << placement.offset
-        << ", \"size\": " << placement.size << ", \"firstStep\": " << placement.firstStep
-        << ", \"lastStep\": " << placement.lastStep << "}";
+        << ", \"heap\": " << placement.heap << ", \"offset\": " << placement.offset << ", \"size\": " << placement.size
+        << ", \"firstStep\": " << placement.firstStep << ", \"lastStep\": " << placement.lastStep << "}";
     separator = ",\n";
   }
   out << "\n  ],\n  \"memory\": {\"peakBytes\": " << plan.memory.peakBytes
@@ -247,8 +265,9 @@ void writeDot(std::ostream& out, const Graph& graph, const Plan& plan) {
     writeDotEdges(out, declaration, pass);
   }
   for (const CulledPass& culled : plan.culled) {
-    out << "  p" << culled.pass << " [shape=box, style=dashed, label="
-        << jsonString(declaration.passes[culled.pass].name) << ", tooltip=" << jsonString(culled.reason) << "];\n";
+    out << "  p" << culled.pass
+        << " [shape=box, style=dashed, label=" << jsonString(declaration.passes[culled.pass].name)
+        << ", tooltip=" << jsonString(culled.reason) << "];\n";
     writeDotEdges(out, declaration, culled.pass);
   }
   out << "}\n";

@@ -38,20 +38,34 @@ GraphError::GraphError(std::vector<Problem> problems)
 
 std::string_view nameOf(Misuse misuse) {
   switch (misuse) {
-    case Misuse::unwrittenRead: return "unwritten read";
-    case Misuse::staleVersion: return "stale version";
-    case Misuse::doubleWrite: return "double write";
-    case Misuse::undeclaredAccess: return "undeclared access";
-    case Misuse::sizeMismatch: return "size mismatch";
-    case Misuse::formatMismatch: return "format mismatch";
-    case Misuse::missingUsage: return "missing usage";
-    case Misuse::cycle: return "cycle";
-    case Misuse::unknownHandle: return "unknown handle";
-    case Misuse::foreignHandle: return "foreign handle";
-    case Misuse::overLimit: return "over limit";
-    case Misuse::importState: return "import state";
-    case Misuse::subresourceRange: return "subresource range";
-    case Misuse::device: return "device";
+    case Misuse::unwrittenRead:
+      return "unwritten read";
+    case Misuse::staleVersion:
+      return "stale version";
+    case Misuse::doubleWrite:
+      return "double write";
+    case Misuse::undeclaredAccess:
+      return "undeclared access";
+    case Misuse::sizeMismatch:
+      return "size mismatch";
+    case Misuse::formatMismatch:
+      return "format mismatch";
+    case Misuse::missingUsage:
+      return "missing usage";
+    case Misuse::cycle:
+      return "cycle";
+    case Misuse::unknownHandle:
+      return "unknown handle";
+    case Misuse::foreignHandle:
+      return "foreign handle";
+    case Misuse::overLimit:
+      return "over limit";
+    case Misuse::importState:
+      return "import state";
+    case Misuse::subresourceRange:
+      return "subresource range";
+    case Misuse::device:
+      return "device";
   }
   return "?";
 }

@@ -11,20 +11,20 @@ namespace rendergraph {
 
 /// What was done wrong. One name for each kind of misuse, so that hosts and tests can tell them apart.
 enum class Misuse {
-  unwrittenRead,      ///< A pass reads a resource that nothing has written.
-  staleVersion,       ///< A handle older than the resource's last write.
-  doubleWrite,        ///< One pass writes the same subresource twice.
-  undeclaredAccess,   ///< A recording touches a resource that its pass did not declare.
-  sizeMismatch,       ///< Attachments of one pass differ in size or layers; a copy does not fit.
-  formatMismatch,     ///< Depth format as colour, colour format as depth.
-  missingUsage,       ///< An imported resource lacks the usage flag that an access needs.
-  cycle,              ///< Passes that wait for each other.
-  unknownHandle,      ///< A default-made handle, or an index past the end.
-  foreignHandle,      ///< A handle of another graph, or of this one before reset().
-  overLimit,          ///< Larger than the device allows, or of size zero.
-  importState,        ///< An imported or exported resource without the state that it needs.
-  subresourceRange,   ///< Mips or layers outside the image.
-  device,             ///< The backend failed: out of memory, device lost.
+  unwrittenRead,     ///< A pass reads a resource that nothing has written.
+  staleVersion,      ///< A handle older than the resource's last write.
+  doubleWrite,       ///< One pass writes the same subresource twice.
+  undeclaredAccess,  ///< A recording touches a resource that its pass did not declare.
+  sizeMismatch,      ///< Attachments of one pass differ in size or layers; a copy does not fit.
+  formatMismatch,    ///< Depth format as colour, colour format as depth.
+  missingUsage,      ///< An imported resource lacks the usage flag that an access needs.
+  cycle,             ///< Passes that wait for each other.
+  unknownHandle,     ///< A default-made handle, or an index past the end.
+  foreignHandle,     ///< A handle of another graph, or of this one before reset().
+  overLimit,         ///< Larger than the device allows, or of size zero.
+  importState,       ///< An imported or exported resource without the state that it needs.
+  subresourceRange,  ///< Mips or layers outside the image.
+  device,            ///< The backend failed: out of memory, device lost.
 };
 
 /// The one exception of the graph. what() is a single line: pass, resource, reason, remedy, source location.
@@ -32,10 +32,10 @@ class GraphError : public std::runtime_error {
  public:
   struct Problem {
     Misuse misuse;
-    std::string pass;      ///< Name of the pass, empty when none is concerned.
-    std::string resource;  ///< Name of the resource, empty when none is concerned.
-    std::string reason;    ///< What is wrong, in words.
-    std::string remedy;    ///< What to do about it, in words.
+    std::string pass;            ///< Name of the pass, empty when none is concerned.
+    std::string resource;        ///< Name of the resource, empty when none is concerned.
+    std::string reason;          ///< What is wrong, in words.
+    std::string remedy;          ///< What to do about it, in words.
     std::source_location where;  ///< Where the declaration stands in the host's code.
   };
 

@@ -77,8 +77,7 @@ void Executor::State::prepare(const Declaration& declared, const CompileOptions&
   for (uint32_t index = 0; index < declared.resources.size(); ++index) {
     const DeclaredResource& resource = declared.resources[index];
     if (!resource.imported()) continue;
-    bound[index] = {
-        .image = resource.importedImage, .buffer = resource.importedBuffer, .views = &importedViews};
+    bound[index] = {.image = resource.importedImage, .buffer = resource.importedBuffer, .views = &importedViews};
   }
   makeResources();
   current->resources->bind(current->plan, bound);
@@ -146,11 +145,17 @@ const Plan& Executor::plan() const {
   return state_->current != nullptr ? state_->current->plan : kEmpty;
 }
 
-const Capture& Executor::capture() const { return state_->capture; }
+const Capture& Executor::capture() const {
+  return state_->capture;
+}
 
-VkImage Executor::exportedImage(Image image) const { return exportedOf(state_->exports, image).image; }
+VkImage Executor::exportedImage(Image image) const {
+  return exportedOf(state_->exports, image).image;
+}
 
-VkBuffer Executor::exportedBuffer(Buffer buffer) const { return exportedOf(state_->exports, buffer).buffer; }
+VkBuffer Executor::exportedBuffer(Buffer buffer) const {
+  return exportedOf(state_->exports, buffer).buffer;
+}
 
 std::span<const std::byte> Executor::mapped(Buffer buffer) const {
   const Bound& bound = exportedOf(state_->exports, buffer);
@@ -158,8 +163,12 @@ std::span<const std::byte> Executor::mapped(Buffer buffer) const {
   return {bound.address, static_cast<std::size_t>(state_->exports.sizes[buffer.resource])};
 }
 
-uint64_t Executor::plansCompiled() const { return state_->compiled; }
-uint64_t Executor::plansReused() const { return state_->reused; }
+uint64_t Executor::plansCompiled() const {
+  return state_->compiled;
+}
+uint64_t Executor::plansReused() const {
+  return state_->reused;
+}
 
 void Executor::clear() {
   state_->current = nullptr;

@@ -97,9 +97,9 @@ void Frame::beginRendering(const PlannedPass& planned) {
   const auto infoOf = [&](const PlannedAttachment& attachment, const VkClearValue& clear) {
     VkRenderingAttachmentInfo info{};
     info.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
-    info.imageView = state_.viewOf(attachment.resource, attachment.range,
-                                   attachment.range.layerCount > 1 ? VK_IMAGE_VIEW_TYPE_2D_ARRAY
-                                                                   : VK_IMAGE_VIEW_TYPE_2D);
+    info.imageView =
+        state_.viewOf(attachment.resource, attachment.range,
+                      attachment.range.layerCount > 1 ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D);
     info.imageLayout = attachment.layout;
     info.loadOp = attachment.load;
     info.storeOp = attachment.store;

@@ -42,8 +42,8 @@ void checkShape(Declaration& declaration, uint32_t index) {
   const uint32_t fullChain = fullMipCount(desc.width, desc.height);
   if (desc.mips > fullChain) {
     report(Misuse::overLimit,
-           std::to_string(desc.mips) + " mips of a " + std::to_string(desc.width) + "x" +
-               std::to_string(desc.height) + " image",
+           std::to_string(desc.mips) + " mips of a " + std::to_string(desc.width) + "x" + std::to_string(desc.height) +
+               " image",
            "declare at most " + std::to_string(fullChain));
   }
 }
@@ -71,11 +71,10 @@ void checkKeyIsUnique(Declaration& declaration, uint32_t index) {
   const DeclaredResource& added = declaration.resources[index];
   for (uint32_t i = 0; i < index; ++i) {
     const DeclaredResource& other = declaration.resources[i];
-    const bool halvesOfOneHistory = other.origin == Origin::historyPrevious && added.origin == Origin::historyNext &&
-                                    i + 1 == index;
+    const bool halvesOfOneHistory =
+        other.origin == Origin::historyPrevious && added.origin == Origin::historyNext && i + 1 == index;
     if (other.retained() && other.key == added.key && !halvesOfOneHistory) {
-      declaration.report(Misuse::doubleWrite, kNone, index,
-                         "two persistent resources of the graph have this name",
+      declaration.report(Misuse::doubleWrite, kNone, index, "two persistent resources of the graph have this name",
                          "declare it once and pass the handle on, or give them different names", added.where);
       return;
     }
@@ -117,7 +116,9 @@ Graph::~Graph() = default;
 Graph::Graph(Graph&&) noexcept = default;
 Graph& Graph::operator=(Graph&&) noexcept = default;
 
-void Graph::reset() { declaration_->reset(); }
+void Graph::reset() {
+  declaration_->reset();
+}
 
 Image Graph::createImage(std::string_view name, const ImageDesc& desc, Location where) {
   DeclaredResource resource;
@@ -134,8 +135,7 @@ Buffer Graph::createBuffer(std::string_view name, const BufferDesc& desc, Locati
   return bufferHandle(*declaration_, addResource(*declaration_, resource, name));
 }
 
-Image Graph::importImage(std::string_view name, const ImageDesc& desc, const ImportedImage& imported,
-                         Location where) {
+Image Graph::importImage(std::string_view name, const ImageDesc& desc, const ImportedImage& imported, Location where) {
   DeclaredResource resource;
   resource.origin = Origin::imported;
   resource.image = desc;

@@ -42,7 +42,9 @@ VkPipelineStageFlags2 shaderStagesOf(PassKind kind) {
   return 0;
 }
 
-std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"; }
+std::string quoted(std::string_view text) {
+  return "'" + std::string(text) + "'";
+}
 
 /// Reports in the name of one request.
 struct Reporter {
@@ -189,11 +191,15 @@ void append(Declaration& declaration, const DeclaredAccess& access) {
   declaration.accesses.push_back(access);
   DeclaredPass& pass = declaration.passes[access.pass];
   DeclaredResource& resource = declaration.resources[access.resource];
-  if (pass.lastAccess == kNone) pass.firstAccess = index;
-  else declaration.accesses[pass.lastAccess].nextOfPass = index;
+  if (pass.lastAccess == kNone)
+    pass.firstAccess = index;
+  else
+    declaration.accesses[pass.lastAccess].nextOfPass = index;
   pass.lastAccess = index;
-  if (resource.lastAccess == kNone) resource.firstAccess = index;
-  else declaration.accesses[resource.lastAccess].nextOfResource = index;
+  if (resource.lastAccess == kNone)
+    resource.firstAccess = index;
+  else
+    declaration.accesses[resource.lastAccess].nextOfResource = index;
   resource.lastAccess = index;
 }
 
@@ -207,8 +213,7 @@ uint32_t addAccess(Declaration& declaration, Request request) {
   Subresources range = request.range;
   checkRange(report, resource, range);
   if (resource.origin == Origin::historyPrevious && request.mode != AccessMode::read) {
-    report(Misuse::staleVersion, "last frame's content of a history cannot be written",
-           "write History::next instead");
+    report(Misuse::staleVersion, "last frame's content of a history cannot be written", "write History::next instead");
   }
   VkPipelineStageFlags2 stages = request.stages;
   if (stages == 0) stages = shaderStagesOf(declaration.passes[request.pass].kind);
@@ -271,7 +276,9 @@ void addAttachmentSize(Declaration& declaration, const Request& request) {
   }
 }
 
-AccessMode modeOf(LoadOp load) { return load == LoadOp::load ? AccessMode::modify : AccessMode::write; }
+AccessMode modeOf(LoadOp load) {
+  return load == LoadOp::load ? AccessMode::modify : AccessMode::write;
+}
 
 template <class Tag>
 uint32_t addPlain(Declaration& declaration, uint32_t pass, const Handle<Tag>& handle, Usage usage, AccessMode mode,
@@ -307,23 +314,23 @@ void Pass::read(Buffer buffer, Usage usage, VkPipelineStageFlags2 stages, Locati
 }
 
 Image Pass::write(Image image, Usage usage, Subresources range, VkPipelineStageFlags2 stages, Location where) {
-  return atVersion(image, addPlain(*graph_->declaration_, index_, image, usage, AccessMode::write, range, stages,
-                                   where));
+  return atVersion(image,
+                   addPlain(*graph_->declaration_, index_, image, usage, AccessMode::write, range, stages, where));
 }
 
 Buffer Pass::write(Buffer buffer, Usage usage, VkPipelineStageFlags2 stages, Location where) {
-  return atVersion(buffer, addPlain(*graph_->declaration_, index_, buffer, usage, AccessMode::write, {}, stages,
-                                    where));
+  return atVersion(buffer,
+                   addPlain(*graph_->declaration_, index_, buffer, usage, AccessMode::write, {}, stages, where));
 }
 
 Image Pass::modify(Image image, Usage usage, Subresources range, VkPipelineStageFlags2 stages, Location where) {
-  return atVersion(image, addPlain(*graph_->declaration_, index_, image, usage, AccessMode::modify, range, stages,
-                                   where));
+  return atVersion(image,
+                   addPlain(*graph_->declaration_, index_, image, usage, AccessMode::modify, range, stages, where));
 }
 
 Buffer Pass::modify(Buffer buffer, Usage usage, VkPipelineStageFlags2 stages, Location where) {
-  return atVersion(buffer, addPlain(*graph_->declaration_, index_, buffer, usage, AccessMode::modify, {}, stages,
-                                    where));
+  return atVersion(buffer,
+                   addPlain(*graph_->declaration_, index_, buffer, usage, AccessMode::modify, {}, stages, where));
 }
 
 Image Pass::color(Image image, const ColorAttachment& attachment, Location where) {
@@ -385,8 +392,12 @@ void Pass::renderArea(VkExtent2D extent, uint32_t layers) {
   pass.renderLayers = layers;
 }
 
-void Pass::sideEffect() { graph_->declaration_->passes[index_].sideEffect = true; }
+void Pass::sideEffect() {
+  graph_->declaration_->passes[index_].sideEffect = true;
+}
 
-void Pass::prefer(QueuePreference queue) { graph_->declaration_->passes[index_].queue = queue; }
+void Pass::prefer(QueuePreference queue) {
+  graph_->declaration_->passes[index_].queue = queue;
+}
 
 }  // namespace rendergraph

@@ -20,7 +20,7 @@ class Graph;
 class Executor;
 
 enum class PassKind : uint8_t {
-  raster,    ///< Draws into attachments (dynamic rendering is begun and ended around the recording).
+  raster,  ///< Draws into attachments (dynamic rendering is begun and ended around the recording).
   compute,
   transfer,  ///< Copies, clears, fills.
   host,      ///< Runs on the host between submissions.
@@ -57,8 +57,7 @@ class PassContext {
   /// For hosts that record Vulkan themselves. State that a recording sets is not restored for the next pass.
   VkCommandBuffer commandBuffer() const { return commands_; }
   VkImage image(Image image) const;
-  VkImageView view(Image image, Subresources range = {},
-                   VkImageViewType type = VK_IMAGE_VIEW_TYPE_2D) const;
+  VkImageView view(Image image, Subresources range = {}, VkImageViewType type = VK_IMAGE_VIEW_TYPE_2D) const;
   VkBuffer buffer(Buffer buffer) const;
   /// Host pass: content of an upload or readback buffer that the pass declared with Usage::host.
   std::span<std::byte> mapped(Buffer buffer) const;
@@ -100,24 +99,21 @@ class Pass {
   /// Any other read. For storage images and buffers, uniform, transfer, indirect, vertex, index.
   void read(Image image, Usage usage, Subresources range = {}, VkPipelineStageFlags2 stages = 0,
             Location where = Location::current());
-  void read(Buffer buffer, Usage usage, VkPipelineStageFlags2 stages = 0,
-            Location where = Location::current());
+  void read(Buffer buffer, Usage usage, VkPipelineStageFlags2 stages = 0, Location where = Location::current());
   /// Replaces the content of the range; other subresources keep theirs. The result must be used from here on.
-  [[nodiscard]] Image write(Image image, Usage usage, Subresources range = {},
-                            VkPipelineStageFlags2 stages = 0, Location where = Location::current());
+  [[nodiscard]] Image write(Image image, Usage usage, Subresources range = {}, VkPipelineStageFlags2 stages = 0,
+                            Location where = Location::current());
   [[nodiscard]] Buffer write(Buffer buffer, Usage usage, VkPipelineStageFlags2 stages = 0,
                              Location where = Location::current());
   /// Reads and writes: atomics, partial writes, accumulation in place.
-  [[nodiscard]] Image modify(Image image, Usage usage, Subresources range = {},
-                             VkPipelineStageFlags2 stages = 0, Location where = Location::current());
+  [[nodiscard]] Image modify(Image image, Usage usage, Subresources range = {}, VkPipelineStageFlags2 stages = 0,
+                             Location where = Location::current());
   [[nodiscard]] Buffer modify(Buffer buffer, Usage usage, VkPipelineStageFlags2 stages = 0,
                               Location where = Location::current());
   /// Next colour attachment, in order of calls. Raster passes only. All attachments have the same size.
-  [[nodiscard]] Image color(Image image, const ColorAttachment& attachment = {},
-                            Location where = Location::current());
+  [[nodiscard]] Image color(Image image, const ColorAttachment& attachment = {}, Location where = Location::current());
   /// The depth attachment, tested and written.
-  [[nodiscard]] Image depth(Image image, const DepthAttachment& attachment = {},
-                            Location where = Location::current());
+  [[nodiscard]] Image depth(Image image, const DepthAttachment& attachment = {}, Location where = Location::current());
   /// The depth attachment, tested only.
   void depthReadOnly(Image image, Subresources range = mip(0), Location where = Location::current());
   /// Render area of a raster pass without attachments (fragment stores only), px.

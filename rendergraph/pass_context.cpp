@@ -205,9 +205,13 @@ VkExtent2D PassContext::extent(Image image, uint32_t mipLevel) const {
   return mipExtent(inside.state.declaration->resources[inside.access.any(image)].image, mipLevel);
 }
 
-std::span<const VkFormat> PassContext::colorFormats() const { return executor_.state_->colorFormats; }
+std::span<const VkFormat> PassContext::colorFormats() const {
+  return executor_.state_->colorFormats;
+}
 
-VkFormat PassContext::depthFormat() const { return executor_.state_->depthFormat; }
+VkFormat PassContext::depthFormat() const {
+  return executor_.state_->depthFormat;
+}
 
 void PassContext::dispatch(const Dispatch& dispatch) {
   const Inside inside(*this);
@@ -273,10 +277,10 @@ void PassContext::copyImageToBuffer(Image from, Buffer to) {
   const VkExtent2D extent = mipExtent(inside.desc(source), source.range.firstMip);
   const VkDeviceSize bytes = VkDeviceSize{extent.width} * extent.height * texelSize(inside.desc(source).format);
   if (bytes > inside.bytes(target)) {
-    inside.access.fail(Misuse::sizeMismatch, target.resource,
-                       "the image has " + std::to_string(bytes) + " bytes, the buffer " +
-                           std::to_string(inside.bytes(target)),
-                       "make the buffer large enough");
+    inside.access.fail(
+        Misuse::sizeMismatch, target.resource,
+        "the image has " + std::to_string(bytes) + " bytes, the buffer " + std::to_string(inside.bytes(target)),
+        "make the buffer large enough");
   }
   VkImageAspectFlags aspects = source.range.aspects;
   if ((aspects & VK_IMAGE_ASPECT_DEPTH_BIT) != 0) aspects = VK_IMAGE_ASPECT_DEPTH_BIT;  // One aspect per copy.

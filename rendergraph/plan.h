@@ -89,8 +89,8 @@ struct PlannedHeap {
 struct Placement {
   uint32_t resource = 0;
   uint32_t heap = 0;
-  VkDeviceSize offset = 0, size = 0;       ///< Bytes.
-  uint32_t firstStep = 0, lastStep = 0;    ///< Positions in Plan::passes, inclusive; passes.size(): exported.
+  VkDeviceSize offset = 0, size = 0;     ///< Bytes.
+  uint32_t firstStep = 0, lastStep = 0;  ///< Positions in Plan::passes, inclusive; passes.size(): exported.
   VkImageUsageFlags imageUsage = 0;
   VkBufferUsageFlags bufferUsage = 0;
   bool operator==(const Placement&) const = default;

@@ -24,8 +24,8 @@ HeapPool::Heaps HeapPool::acquire(Backend& backend, const std::vector<PlannedHea
       best = std::make_shared<PooledHeap>();
       heaps_.push_back(best);
       best->planned = wanted;
-      best->heap = OwnedHeap(backend, backend.createHeap(wanted.size, wanted.memoryTypeBits, wanted.memory,
-                                                         "graph heap"));
+      best->heap =
+          OwnedHeap(backend, backend.createHeap(wanted.size, wanted.memoryTypeBits, wanted.memory, "graph heap"));
     }
     result.push_back(std::move(best));
   }
@@ -41,12 +41,12 @@ PlanResources::PlanResources(Backend& backend, HeapPool& pool, const Declaration
     Object& object = objects_.emplace_back();
     namingResource(resource.name, [&] {
       if (resource.isImage) {
-        object.image = OwnedImage(backend, backend.createImage(resource.image, placement.imageUsage, heap,
-                                                               placement.offset, resource.name));
+        object.image = OwnedImage(
+            backend, backend.createImage(resource.image, placement.imageUsage, heap, placement.offset, resource.name));
         return;
       }
-      object.buffer = OwnedBuffer(backend, backend.createBuffer(resource.buffer, placement.bufferUsage, heap,
-                                                                placement.offset, resource.name));
+      object.buffer = OwnedBuffer(
+          backend, backend.createBuffer(resource.buffer, placement.bufferUsage, heap, placement.offset, resource.name));
       if (resource.buffer.memory != MemoryKind::device) {
         object.address = static_cast<std::byte*>(backend.hostAddress(heap)) + placement.offset;
       }
@@ -57,10 +57,8 @@ PlanResources::PlanResources(Backend& backend, HeapPool& pool, const Declaration
 void PlanResources::bind(const Plan& plan, BindingTable& table) {
   for (std::size_t i = 0; i < objects_.size(); ++i) {
     Object& object = objects_[i];
-    table[plan.placements[i].resource] = {.image = object.image.get(),
-                                          .buffer = object.buffer.get(),
-                                          .views = &object.views,
-                                          .address = object.address};
+    table[plan.placements[i].resource] = {
+        .image = object.image.get(), .buffer = object.buffer.get(), .views = &object.views, .address = object.address};
   }
 }
 

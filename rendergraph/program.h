@@ -31,7 +31,7 @@ struct RasterState {
   bool depthTest = false;
   bool depthWrite = false;
   VkCompareOp depthCompare = VK_COMPARE_OP_GREATER;  ///< Reversed depth: nearer is greater.
-  bool blend = false;  ///< Premultiplied over, all attachments.
+  bool blend = false;                                ///< Premultiplied over, all attachments.
   bool operator==(const RasterState&) const = default;
 };
 
@@ -64,14 +64,21 @@ struct Binding {
 
 inline Binding sampled(Image image, SamplerDesc sampler = {}, Subresources range = {},
                        VkImageViewType viewType = VK_IMAGE_VIEW_TYPE_2D) {
-  return {.kind = Binding::Kind::sampledImage, .image = image, .range = range, .viewType = viewType,
-          .sampler = sampler, .buffer = {}};
+  return {.kind = Binding::Kind::sampledImage,
+          .image = image,
+          .range = range,
+          .viewType = viewType,
+          .sampler = sampler,
+          .buffer = {}};
 }
 /// A storage image; one mip. `viewType` 2D_ARRAY for image2DArray.
-inline Binding storage(Image image, Subresources range = mip(0),
-                       VkImageViewType viewType = VK_IMAGE_VIEW_TYPE_2D) {
-  return {.kind = Binding::Kind::storageImage, .image = image, .range = range, .viewType = viewType,
-          .sampler = {}, .buffer = {}};
+inline Binding storage(Image image, Subresources range = mip(0), VkImageViewType viewType = VK_IMAGE_VIEW_TYPE_2D) {
+  return {.kind = Binding::Kind::storageImage,
+          .image = image,
+          .range = range,
+          .viewType = viewType,
+          .sampler = {},
+          .buffer = {}};
 }
 inline Binding storage(Buffer buffer) {
   return {.kind = Binding::Kind::storageBuffer, .image = {}, .range = {}, .sampler = {}, .buffer = buffer};
@@ -102,7 +109,7 @@ struct Dispatch {
   std::span<const std::byte> pushConstants = {};
   std::span<const uint32_t> specialization = {};  ///< Value of constant_id 0, 1, …
   Groups groups;
-  Buffer indirect = {};            ///< When set, the group counts are read from it.
+  Buffer indirect = {};             ///< When set, the group counts are read from it.
   VkDeviceSize indirectOffset = 0;  ///< Bytes.
 };
 

@@ -92,9 +92,7 @@ Subresources resolved(const Subresources& range, const ImageDesc& desc) {
 
 bool inside(const Subresources& range, const ImageDesc& desc) {
   // Sums in 64 bits: counts near 2^32 must not wrap into range.
-  const auto fits = [](uint64_t first, uint64_t count, uint64_t total) {
-    return count > 0 && first + count <= total;
-  };
+  const auto fits = [](uint64_t first, uint64_t count, uint64_t total) { return count > 0 && first + count <= total; };
   return fits(range.firstMip, range.mipCount, desc.mips) && fits(range.firstLayer, range.layerCount, desc.layers) &&
          range.aspects != 0 && (range.aspects & ~aspectsOf(desc.format)) == 0;
 }

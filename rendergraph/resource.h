@@ -11,17 +11,21 @@ namespace rendergraph {
 struct Subresources {
   static constexpr uint32_t kAll = UINT32_MAX;
   uint32_t firstMip = 0;
-  uint32_t mipCount = kAll;    ///< kAll: to the last mip.
+  uint32_t mipCount = kAll;  ///< kAll: to the last mip.
   uint32_t firstLayer = 0;
-  uint32_t layerCount = kAll;  ///< kAll: to the last layer.
+  uint32_t layerCount = kAll;      ///< kAll: to the last layer.
   VkImageAspectFlags aspects = 0;  ///< 0: every aspect of the format.
   bool operator==(const Subresources&) const = default;
 };
 
 /// One mip, all layers.
-constexpr Subresources mip(uint32_t level) { return {.firstMip = level, .mipCount = 1}; }
+constexpr Subresources mip(uint32_t level) {
+  return {.firstMip = level, .mipCount = 1};
+}
 /// One layer, all mips.
-constexpr Subresources layer(uint32_t index) { return {.firstLayer = index, .layerCount = 1}; }
+constexpr Subresources layer(uint32_t index) {
+  return {.firstLayer = index, .layerCount = 1};
+}
 
 /// A two-dimensional image that the graph creates. Usage flags follow from the declared accesses.
 struct ImageDesc {

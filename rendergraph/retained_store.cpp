@@ -30,8 +30,8 @@ RetainedStore::Entry& RetainedStore::entryFor(const DeclaredResource& resource, 
                     (retained.bufferUsage & ~entry.bufferUsage) == 0;
   if (!same) {
     // Flags are kept, so that two graphs that use it differently settle on one object.
-    const bool sameShape = entry.isImage == resource.isImage && entry.imageDesc == resource.image &&
-                           entry.bufferDesc == resource.buffer;
+    const bool sameShape =
+        entry.isImage == resource.isImage && entry.imageDesc == resource.image && entry.bufferDesc == resource.buffer;
     const VkImageUsageFlags imageUsage = (sameShape ? entry.imageUsage : 0) | retained.imageUsage;
     const VkBufferUsageFlags bufferUsage = (sameShape ? entry.bufferUsage : 0) | retained.bufferUsage;
     entry = Entry{.isImage = resource.isImage,
@@ -52,8 +52,8 @@ void RetainedStore::make(const DeclaredResource& resource, const Entry& entry, S
   Side made;
   made.heap = OwnedHeap(backend_, backend_.createHeap(needs.size, needs.memoryTypeBits, memory, resource.name));
   if (entry.isImage) {
-    made.image = OwnedImage(
-        backend_, backend_.createImage(entry.imageDesc, entry.imageUsage, made.heap.get(), 0, resource.key));
+    made.image =
+        OwnedImage(backend_, backend_.createImage(entry.imageDesc, entry.imageUsage, made.heap.get(), 0, resource.key));
   } else {
     made.buffer = OwnedBuffer(
         backend_, backend_.createBuffer(entry.bufferDesc, entry.bufferUsage, made.heap.get(), 0, resource.key));
@@ -76,15 +76,13 @@ void RetainedStore::prepare(const Declaration& declaration, const Plan& plan, Bi
                                                                         : 1 - entry.previous;
     Side& side = entry.sides[index];
     if (!side.heap) namingResource(resource.name, [&] { make(resource, entry, side); });
-    current_.push_back({.entry = &entry,
-                        .side = &side,
-                        .restLayout = retained.restLayout,
-                        .swaps = resource.origin == Origin::historyNext &&
-                                 written(declaration, plan, retained.resource)});
-    table[retained.resource] = {.image = side.image.get(),
-                                .buffer = side.buffer.get(),
-                                .views = &side.views,
-                                .address = side.address};
+    current_.push_back(
+        {.entry = &entry,
+         .side = &side,
+         .restLayout = retained.restLayout,
+         .swaps = resource.origin == Origin::historyNext && written(declaration, plan, retained.resource)});
+    table[retained.resource] = {
+        .image = side.image.get(), .buffer = side.buffer.get(), .views = &side.views, .address = side.address};
   }
 }
 

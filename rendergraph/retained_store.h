@@ -51,7 +51,7 @@ class RetainedStore {
     BufferDesc bufferDesc;
     VkImageUsageFlags imageUsage = 0;
     VkBufferUsageFlags bufferUsage = 0;
-    uint32_t previous = 0;     // Side that is History::previous.
+    uint32_t previous = 0;      // Side that is History::previous.
     std::array<Side, 2> sides;  // A persistent resource has only the first.
   };
   /// One resource of the current frame.

@@ -29,7 +29,9 @@ class Hash {
   uint64_t state_ = 0x243F6A8885A308D3ull;
 };
 
-void addState(Hash& hash, const AccessState& state) { hash.add(state.stages, state.access, state.layout); }
+void addState(Hash& hash, const AccessState& state) {
+  hash.add(state.stages, state.access, state.layout);
+}
 
 void addResource(Hash& hash, const DeclaredResource& resource) {
   hash.add(resource.isImage, resource.origin, resource.exported, resource.importedImageUsage,

@@ -16,9 +16,9 @@ void checkLimits(const Declaration& declaration, const DeviceFacts& device, Prob
   for (uint32_t index = 0; index < declaration.resources.size(); ++index) {
     const DeclaredResource& resource = declaration.resources[index];
     const auto report = [&](const std::string& what, uint64_t value, uint64_t limit) {
-      problems.push_back(declaration.problem(
-          Misuse::overLimit, kNone, index, what + " " + std::to_string(value) + " is over the device's limit",
-          "stay within " + std::to_string(limit), resource.where));
+      problems.push_back(declaration.problem(Misuse::overLimit, kNone, index,
+                                             what + " " + std::to_string(value) + " is over the device's limit",
+                                             "stay within " + std::to_string(limit), resource.where));
     };
     if (!resource.isImage) {
       if (resource.buffer.size > device.maxBufferSize()) {
@@ -57,10 +57,10 @@ void checkContent(const Declaration& declaration, const Cells& cells, Problems& 
     });
     if (all || !access.needsContent()) continue;
     if (declaration.resources[access.resource].imported()) {
-      problems.push_back(declaration.problem(
-          Misuse::importState, access.pass, access.resource,
-          "its content is read, but it was imported in layout UNDEFINED, which has none",
-          "name the layout in which the host left it, or write it first", access.where));
+      problems.push_back(
+          declaration.problem(Misuse::importState, access.pass, access.resource,
+                              "its content is read, but it was imported in layout UNDEFINED, which has none",
+                              "name the layout in which the host left it, or write it first", access.where));
     } else {
       const bool modifies = access.mode == AccessMode::modify;
       problems.push_back(declaration.problem(

@@ -82,22 +82,36 @@ std::string joined(uint64_t bits, std::span<const Flag> flags) {
 
 }  // namespace
 
-std::string stageNames(VkPipelineStageFlags2 stages) { return joined(stages, kStages); }
+std::string stageNames(VkPipelineStageFlags2 stages) {
+  return joined(stages, kStages);
+}
 
-std::string accessNames(VkAccessFlags2 access) { return joined(access, kAccesses); }
+std::string accessNames(VkAccessFlags2 access) {
+  return joined(access, kAccesses);
+}
 
 std::string layoutName(VkImageLayout layout) {
   switch (layout) {
-    case VK_IMAGE_LAYOUT_UNDEFINED: return "undefined";
-    case VK_IMAGE_LAYOUT_GENERAL: return "general";
-    case VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL: return "colorAttachment";
-    case VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL: return "depthAttachment";
-    case VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL: return "depthReadOnly";
-    case VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL: return "shaderReadOnly";
-    case VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL: return "transferSource";
-    case VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL: return "transferDestination";
-    case VK_IMAGE_LAYOUT_PRESENT_SRC_KHR: return "present";
-    default: return "layout" + std::to_string(static_cast<int>(layout));
+    case VK_IMAGE_LAYOUT_UNDEFINED:
+      return "undefined";
+    case VK_IMAGE_LAYOUT_GENERAL:
+      return "general";
+    case VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL:
+      return "colorAttachment";
+    case VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL:
+      return "depthAttachment";
+    case VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL:
+      return "depthReadOnly";
+    case VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL:
+      return "shaderReadOnly";
+    case VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL:
+      return "transferSource";
+    case VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL:
+      return "transferDestination";
+    case VK_IMAGE_LAYOUT_PRESENT_SRC_KHR:
+      return "present";
+    default:
+      return "layout" + std::to_string(static_cast<int>(layout));
   }
 }
 

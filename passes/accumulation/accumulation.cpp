@@ -34,7 +34,8 @@ std::span<const Field<Parameters>> fields() {
       number<&Parameters::lensSamples>("lensSamples", "", 1, 65536,
                                        "Views from points of the lens; each costs one draw of the scene."),
       toggle<&Parameters::pixelJitter>("pixelJitter", "Also average over the pixel's square (box filter of 1 px)."),
-      toggle<&Parameters::gaussian>("gaussian", "Gaussian lens with sigma = lens radius instead of the aperture's shape."),
+      toggle<&Parameters::gaussian>("gaussian",
+                                    "Gaussian lens with sigma = lens radius instead of the aperture's shape."),
       number<&Parameters::viewsPerFrame>("viewsPerFrame", "", 1, 64,
                                          "Views per execution of the graph; changes no picture."),
       choice<&Parameters::pattern, kLensPatternNames>("pattern", "Low-discrepancy pattern of lens points and offsets."),
@@ -42,7 +43,9 @@ std::span<const Field<Parameters>> fields() {
   return table;
 }
 
-std::vector<Problem> validate(const Parameters&, const DofInputs& inputs) { return checkSceneInputs(inputs); }
+std::vector<Problem> validate(const Parameters&, const DofInputs& inputs) {
+  return checkSceneInputs(inputs);
+}
 
 uint32_t frameCount(const Parameters& parameters, const DofInputs& inputs) {
   if (inputs.lens.cocScale == 0.0f) return pinhole::frameCount(withoutLens(parameters), inputs);

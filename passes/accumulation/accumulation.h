@@ -17,8 +17,8 @@ namespace passes::accumulation {
 struct Parameters {
   int lensSamples = 256;    ///< 1…65536 views. Cost: one scene draw each.
   bool pixelJitter = true;  ///< Also average over the pixel's square (box filter, 1 px): antialiasing for free.
-  bool gaussian = false;    ///< Gaussian lens of σ = E instead of the aperture's shape (for comparison with Kraus 2007).
-  int viewsPerFrame = 8;    ///< 1…64 views an execution of the graph.
+  bool gaussian = false;  ///< Gaussian lens of σ = E instead of the aperture's shape (for comparison with Kraus 2007).
+  int viewsPerFrame = 8;  ///< 1…64 views an execution of the graph.
   LensPattern pattern = LensPattern::sobol;
 };
 

@@ -37,7 +37,9 @@ std::span<const Field<Parameters>> fields() {
   return table;
 }
 
-std::vector<Problem> validate(const Parameters&, const DofInputs& inputs) { return checkSceneInputs(inputs); }
+std::vector<Problem> validate(const Parameters&, const DofInputs& inputs) {
+  return checkSceneInputs(inputs);
+}
 
 uint32_t frameCount(const Parameters& parameters, const DofInputs&) {
   return parameters.pixelSamples == 1 ? 1 : passes::frameCount(meanOf(parameters));
@@ -59,10 +61,7 @@ DofOutputs declare(rendergraph::Graph& graph, const DofInputs& inputs, const Par
 }
 
 Technique technique() {
-  return makeTechnique<fields, validate, declare, frameCount>(
-      {"pinhole", "Pinhole",
-       "no lens"},
-      TechniqueInput::scene);
+  return makeTechnique<fields, validate, declare, frameCount>({"pinhole", "Pinhole", "no lens"}, TechniqueInput::scene);
 }
 
 }  // namespace passes::pinhole

@@ -48,9 +48,7 @@ struct Frame {
   rendergraph::ImageDesc image() const {
     return {.format = kFilterFormat, .width = extent.width, .height = extent.height};
   }
-  VkDeviceSize tileBytes(VkDeviceSize bytesPerTile) const {
-    return VkDeviceSize{tiles.x} * tiles.y * bytesPerTile;
-  }
+  VkDeviceSize tileBytes(VkDeviceSize bytesPerTile) const { return VkDeviceSize{tiles.x} * tiles.y * bytesPerTile; }
 };
 
 Frame frameOf(const DofInputs& inputs, const Parameters& parameters) {
@@ -73,22 +71,21 @@ void requireSize(const Graph& graph, Image image, const char* name, VkExtent2D e
   const auto text = [](uint32_t width, uint32_t height) {
     return std::to_string(width) + "x" + std::to_string(height);
   };
-  throw rendergraph::GraphError(
-      {{.misuse = rendergraph::Misuse::sizeMismatch,
-        .pass = kPrepare.name,
-        .resource = name,
-        .reason = "the image is " + text(desc.width, desc.height) + " px, DofInputs::extent says " +
-                  text(extent.width, extent.height),
-        .remedy = "give colour and depth at full resolution",
-        .where = std::source_location::current()}});
+  throw rendergraph::GraphError({{.misuse = rendergraph::Misuse::sizeMismatch,
+                                  .pass = kPrepare.name,
+                                  .resource = name,
+                                  .reason = "the image is " + text(desc.width, desc.height) +
+                                            " px, DofInputs::extent says " + text(extent.width, extent.height),
+                                  .remedy = "give colour and depth at full resolution",
+                                  .where = std::source_location::current()}});
 }
 
 Image declarePrepare(Graph& graph, const DofInputs& inputs, const Frame& frame, Buffer& statistics) {
   Image prepared = graph.createImage("two_pass_filter.prepared", frame.image());
   // A view of a depth-stencil image that is sampled must name one aspect.
   rendergraph::Subresources depthRange = rendergraph::mip(0);
-  depthRange.aspects = rendergraph::aspectsOf(graph.desc(inputs.depth).format) &
-                       (VK_IMAGE_ASPECT_COLOR_BIT | VK_IMAGE_ASPECT_DEPTH_BIT);
+  depthRange.aspects =
+      rendergraph::aspectsOf(graph.desc(inputs.depth).format) & (VK_IMAGE_ASPECT_COLOR_BIT | VK_IMAGE_ASPECT_DEPTH_BIT);
   Pass pass = graph.addPass(kPrepare.name, PassKind::compute);
   pass.sample(inputs.color, rendergraph::mip(0));
   pass.sample(inputs.depth, depthRange);
@@ -98,8 +95,7 @@ Image declarePrepare(Graph& graph, const DofInputs& inputs, const Frame& frame, 
     const rendergraph::SamplerDesc nearest{.filter = VK_FILTER_NEAREST};
     const std::array<Binding, 4> bindings = {rendergraph::sampled(color, nearest, rendergraph::mip(0)),
                                              rendergraph::sampled(depth, nearest, depthRange),
-                                             rendergraph::storage(prepared),
-                                             rendergraph::storage(statistics)};
+                                             rendergraph::storage(prepared), rendergraph::storage(statistics)};
     context.dispatch({.program = kPrepare,
                       .bindings = bindings,
                       .pushConstants = rendergraph::bytesOf(frame.constants),
@@ -110,8 +106,7 @@ Image declarePrepare(Graph& graph, const DofInputs& inputs, const Frame& frame, 
 
 Buffer declareTiles(Graph& graph, const Frame& frame, Image prepared, Buffer& statistics) {
   constexpr uint32_t kGroup = 8;  // tiles; as in tiles.comp
-  Buffer tileRadii =
-      graph.createBuffer("two_pass_filter.tile_radii", {.size = frame.tileBytes(sizeof(float))});
+  Buffer tileRadii = graph.createBuffer("two_pass_filter.tile_radii", {.size = frame.tileBytes(sizeof(float))});
   Pass pass = graph.addPass(kTiles.name, PassKind::compute);
   pass.read(prepared, Usage::storage);
   tileRadii = pass.write(tileRadii, Usage::storage);
@@ -128,25 +123,23 @@ Buffer declareTiles(Graph& graph, const Frame& frame, Image prepared, Buffer& st
 }
 
 Buffer declareReach(Graph& graph, const Frame& frame, Buffer tileRadii) {
-  Buffer tileTaps =
-      graph.createBuffer("two_pass_filter.tile_taps", {.size = frame.tileBytes(sizeof(shared::uvec2))});
+  Buffer tileTaps = graph.createBuffer("two_pass_filter.tile_taps", {.size = frame.tileBytes(sizeof(shared::uvec2))});
   Pass pass = graph.addPass(kReach.name, PassKind::compute);
   pass.read(tileRadii, Usage::storage);
   tileTaps = pass.write(tileTaps, Usage::storage);
   pass.record([=](PassContext& context) {
     const std::array<Binding, 2> bindings = {rendergraph::storage(tileRadii), rendergraph::storage(tileTaps)};
-    context.dispatch(
-        {.program = kReach,
-         .bindings = bindings,
-         .pushConstants = rendergraph::bytesOf(frame.constants),
-         .groups = rendergraph::groupsFor({frame.tiles.x, frame.tiles.y}, shared::kTwoPassFilterTile)});
+    context.dispatch({.program = kReach,
+                      .bindings = bindings,
+                      .pushConstants = rendergraph::bytesOf(frame.constants),
+                      .groups = rendergraph::groupsFor({frame.tiles.x, frame.tiles.y}, shared::kTwoPassFilterTile)});
   });
   return tileTaps;
 }
 
 /// One direction of the filter.
-Image declareFilter(Graph& graph, const Frame& frame, const ComputeProgram& program, Image source,
-                    Buffer tileTaps, const char* resultName) {
+Image declareFilter(Graph& graph, const Frame& frame, const ComputeProgram& program, Image source, Buffer tileTaps,
+                    const char* resultName) {
   Image result = graph.createImage(resultName, frame.image());
   Pass pass = graph.addPass(program.name, PassKind::compute);
   pass.read(source, Usage::storage);
@@ -211,7 +204,9 @@ DofOutputs declare(Graph& graph, const DofInputs& inputs, const Parameters& para
   return outputs;
 }
 
-uint32_t frameCount(const Parameters&, const DofInputs&) { return 1; }
+uint32_t frameCount(const Parameters&, const DofInputs&) {
+  return 1;
+}
 
 Technique technique() {
   return makeTechnique<fields, validate, declare, frameCount>(

@@ -96,9 +96,7 @@ std::string numberText(double value) {
 json readJsonFile(const std::filesystem::path& file) {
   const std::string text = readText(file);
   DuplicateCheck duplicates(file.string());
-  const auto onEvent = [&](int, json::parse_event_t event, json& parsed) {
-    return duplicates(event, parsed);
-  };
+  const auto onEvent = [&](int, json::parse_event_t event, json& parsed) { return duplicates(event, parsed); };
   try {
     return json::parse(text, onEvent);
   } catch (const json::parse_error& error) {
@@ -196,8 +194,7 @@ std::vector<JsonNode> JsonNode::elements() const {
 std::vector<JsonNode> JsonNode::elements(std::size_t count, const std::string& what) const {
   auto all = elements();
   if (all.size() != count) {
-    fail("has " + std::to_string(all.size()) + " values, must have " + std::to_string(count),
-         "write " + what);
+    fail("has " + std::to_string(all.size()) + " values, must have " + std::to_string(count), "write " + what);
   }
   return all;
 }

@@ -29,8 +29,7 @@ class JsonNode {
   /// Throws engine::Error about this value.
   [[noreturn]] void fail(const std::string& reason, const std::string& remedy = {}) const;
   /// The same about a field of this object that may be absent.
-  [[noreturn]] void failAt(std::string_view name, const std::string& reason,
-                           const std::string& remedy = {}) const;
+  [[noreturn]] void failAt(std::string_view name, const std::string& reason, const std::string& remedy = {}) const;
 
   /// An object with no other fields than these; an unknown one is an error that names the nearest known.
   void requireObject(std::initializer_list<std::string_view> known) const;

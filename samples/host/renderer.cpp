@@ -42,10 +42,11 @@ const passes::Technique& techniqueOf(const RenderOptions& options) {
   const auto* technique = passes::findTechnique(options.technique);
   if (technique == nullptr) {
     const std::string near(passes::nearestTechniqueName(options.technique));
-    throw engine::Error(engine::ErrorParts{.file = {},
-                                           .field = "technique",
-                                           .reason = "unknown technique '" + options.technique + "'",
-                                           .remedy = near.empty() ? "see 'lensgraph techniques'" : "did you mean '" + near + "'?"});
+    throw engine::Error(
+        engine::ErrorParts{.file = {},
+                           .field = "technique",
+                           .reason = "unknown technique '" + options.technique + "'",
+                           .remedy = near.empty() ? "see 'lensgraph techniques'" : "did you mean '" + near + "'?"});
   }
   const auto problems = passes::check(options.parameters, technique->parameters);
   if (!problems.empty()) throwProblem(problems.front(), technique->name);
@@ -72,7 +73,9 @@ void add(shared::FrameStatistics& total, const shared::FrameStatistics& frame) {
 }
 
 /// Vergence of a depth picture's sample; what is not a positive depth is infinitely far.
-float vergenceOf(float depth) { return depth > 0.0f && depth < kNothingHit ? 1.0f / depth : 0.0f; }
+float vergenceOf(float depth) {
+  return depth > 0.0f && depth < kNothingHit ? 1.0f / depth : 0.0f;
+}
 
 std::optional<engine::Environment> loadEnvironment(const Shot& shot) {
   if (!shot.environment) return std::nullopt;
@@ -138,11 +141,12 @@ DofInputs Renderer::State::sceneInputs(const Shot& shot) {
     std::vector<rendergraph::ResolvedBinding> bindings;
     for (const auto& binding : call.emitBindings) {
       const bool isImage = static_cast<bool>(binding.image);
-      bindings.push_back({.kind = binding.kind,
-                          .view = isImage ? context.view(binding.image, binding.range, binding.viewType) : VK_NULL_HANDLE,
-                          .layout = VK_IMAGE_LAYOUT_GENERAL,
-                          .sampler = binding.sampler,
-                          .buffer = isImage ? VK_NULL_HANDLE : context.buffer(binding.buffer)});
+      bindings.push_back(
+          {.kind = binding.kind,
+           .view = isImage ? context.view(binding.image, binding.range, binding.viewType) : VK_NULL_HANDLE,
+           .layout = VK_IMAGE_LAYOUT_GENERAL,
+           .sampler = binding.sampler,
+           .buffer = isImage ? VK_NULL_HANDLE : context.buffer(binding.buffer)});
     }
     renderer->draw(context.commandBuffer(), {.emit = call.emit,
                                              .view = call.view,
@@ -241,7 +245,7 @@ void Renderer::declare(Graph& graph, const Shot& shot, const RenderOptions& opti
   const auto& technique = techniqueOf(options);
   const auto out = state_->declareTechnique(graph, state_->sceneInputs(shot), technique, options);
   graph.exportImage(out.technique.color, {VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
-                                VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
+                                          VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
 }
 
 rendergraph::Plan Renderer::compile(const Graph& graph, const rendergraph::CompileOptions& options) {

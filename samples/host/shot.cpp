@@ -82,8 +82,7 @@ ShotCamera parseCamera(const JsonNode& node) {
     camera.gltfCamera = name->text();
     if (camera.gltfCamera->empty()) name->fail("is empty", "name a camera of the scene");
     for (const auto other : {"position", "target", "up", "fovyDeg"}) {
-      if (node.has(other))
-        node.failAt(other, "given beside gltfCamera, which has its own", "remove one of them");
+      if (node.has(other)) node.failAt(other, "given beside gltfCamera, which has its own", "remove one of them");
     }
   } else {
     parseLookAt(node, camera);
@@ -116,8 +115,7 @@ constexpr LensNumber kLensNumbers[] = {
 double parseFocusDistance(const JsonNode& node) {
   const char* remedy = "metres above 0, or \"infinity\"";
   if (node.isString()) {
-    if (node.text() != "infinity")
-      node.fail("is \"" + node.text() + "\", must be a number or \"infinity\"", remedy);
+    if (node.text() != "infinity") node.fail("is \"" + node.text() + "\", must be a number or \"infinity\"", remedy);
     return std::numeric_limits<double>::infinity();
   }
   const double distance = node.number();
@@ -131,8 +129,7 @@ void parseApertureRadius(const JsonNode& lensNode, engine::Lens& lens) {
   const auto radius = lensNode.find("apertureRadius");
   if (!radius) return;
   if (lensNode.has("fStop")) {
-    lensNode.failAt("apertureRadius", "given beside fStop, which also sets the aperture",
-                    "remove one of them");
+    lensNode.failAt("apertureRadius", "given beside fStop, which also sets the aperture", "remove one of them");
   }
   if (lensNode.has("focalLengthMm") && lens.fovModel == engine::FovModel::pinhole) {
     lensNode.failAt("apertureRadius", "given beside focalLengthMm, which has no effect then",
@@ -153,10 +150,9 @@ void parseApertureRadius(const JsonNode& lensNode, engine::Lens& lens) {
 }
 
 engine::Lens parseLens(const JsonNode& node) {
-  node.requireObject({"apertureRadius", "focalLengthMm", "fStop", "sensorWidthMm", "sensorHeightMm",
-                      "focusDistance", "metersPerUnit", "fovModel", "bladeCount", "bladeRotation",
-                      "bladeCurvature", "anamorphicRatio", "opticalVignetting", "sphericalAberration",
-                      "maxCocRadius"});
+  node.requireObject({"apertureRadius", "focalLengthMm", "fStop", "sensorWidthMm", "sensorHeightMm", "focusDistance",
+                      "metersPerUnit", "fovModel", "bladeCount", "bladeRotation", "bladeCurvature", "anamorphicRatio",
+                      "opticalVignetting", "sphericalAberration", "maxCocRadius"});
   engine::Lens lens;
   for (const auto& [name, member] : kLensNumbers) {
     if (const auto value = node.find(name)) lens.*member = value->number();
@@ -188,8 +184,7 @@ void parsePicture(const JsonNode& root, const path& folder, Shot& shot) {
       shot.background[i] = static_cast<float>(parts[i].number(0.0, std::numeric_limits<float>::max()));
     }
   }
-  if (const auto environment = root.find("environment"))
-    shot.environment = existingFile(*environment, folder);
+  if (const auto environment = root.find("environment")) shot.environment = existingFile(*environment, folder);
   if (const auto shading = root.find("shading")) {
     const std::string text = shading->text();
     if (text != "unlit" && text != "lit") shading->fail("is \"" + text + "\", must be \"unlit\" or \"lit\"");
@@ -202,8 +197,8 @@ void parsePicture(const JsonNode& root, const path& folder, Shot& shot) {
 Shot readShot(const path& file) {
   const auto document = readJsonFile(file);
   const JsonNode root(document, file);
-  root.requireObject({"name", "description", "scene", "camera", "lens", "resolution", "background",
-                      "environment", "shading", "technique"});
+  root.requireObject({"name", "description", "scene", "camera", "lens", "resolution", "background", "environment",
+                      "shading", "technique"});
   const path folder = file.parent_path();
 
   Shot shot;
@@ -213,8 +208,7 @@ Shot readShot(const path& file) {
   for (const auto& part : root.at("scene", "write [{\"path\": \"scene.glb\"}]").elements()) {
     shot.scene.push_back(parsePart(part, folder));
   }
-  shot.camera =
-      parseCamera(root.at("camera", "write {\"position\", \"target\", \"fovyDeg\"} or {\"gltfCamera\"}"));
+  shot.camera = parseCamera(root.at("camera", "write {\"position\", \"target\", \"fovyDeg\"} or {\"gltfCamera\"}"));
   shot.lens = parseLens(root.at("lens", "write {\"apertureRadius\", \"focusDistance\"}"));
   parsePicture(root, folder, shot);
   if (const auto technique = root.find("technique")) {

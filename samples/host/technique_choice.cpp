@@ -41,15 +41,14 @@ const passes::ParameterInfo* findParameter(const passes::Technique& technique, s
 
 }  // namespace
 
-const passes::Technique& requireTechnique(std::string_view name, const std::string& file,
-                                          const std::string& field) {
+const passes::Technique& requireTechnique(std::string_view name, const std::string& file, const std::string& field) {
   if (const auto* technique = passes::findTechnique(name)) return *technique;
   const auto nearest = passes::nearestTechniqueName(name);
-  throw engine::Error({.file = file,
-                       .field = field,
-                       .reason = "unknown technique \"" + std::string(name) + "\"",
-                       .remedy = nearest.empty() ? "known are " + allTechniqueNames()
-                                                 : "did you mean " + std::string(nearest) + "?"});
+  throw engine::Error(
+      {.file = file,
+       .field = field,
+       .reason = "unknown technique \"" + std::string(name) + "\"",
+       .remedy = nearest.empty() ? "known are " + allTechniqueNames() : "did you mean " + std::string(nearest) + "?"});
 }
 
 TechniqueChoice parseTechnique(const JsonNode& node, std::string_view defaultName) {
@@ -66,13 +65,11 @@ TechniqueChoice parseTechnique(const JsonNode& node, std::string_view defaultNam
   const auto* technique = passes::findTechnique(choice.name);
   if (technique == nullptr) {
     const auto nearest = passes::nearestTechniqueName(choice.name);
-    node.failAt(
-        "name", "unknown technique \"" + choice.name + "\"",
-        nearest.empty() ? "known are " + allTechniqueNames() : "did you mean " + std::string(nearest) + "?");
+    node.failAt("name", "unknown technique \"" + choice.name + "\"",
+                nearest.empty() ? "known are " + allTechniqueNames() : "did you mean " + std::string(nearest) + "?");
   }
   const auto problems = passes::check(choice.parameters, technique->parameters);
-  if (!problems.empty())
-    node.failAt(problems.front().parameter, problems.front().reason, problems.front().remedy);
+  if (!problems.empty()) node.failAt(problems.front().parameter, problems.front().reason, problems.front().remedy);
   return choice;
 }
 

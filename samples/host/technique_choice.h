@@ -21,8 +21,7 @@ struct TechniqueChoice {
 };
 
 /// The technique of that name. Throws engine::Error with the nearest name; `file` and `field` say who asked.
-const passes::Technique& requireTechnique(std::string_view name, const std::string& file,
-                                          const std::string& field);
+const passes::Technique& requireTechnique(std::string_view name, const std::string& file, const std::string& field);
 
 /// {"name": …, parameters…}. Without "name" the parameters are for `defaultName`; empty: "name" must be
 /// there.

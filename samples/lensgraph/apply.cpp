@@ -46,16 +46,13 @@ engine::Lens lensOf(const ApplyArguments& arguments) {
 }
 
 void checkTechnique(const host::TechniqueChoice& choice) {
-  if (host::requireTechnique(choice.name, "command line", "--technique").input ==
-      passes::TechniqueInput::image)
-    return;
+  if (host::requireTechnique(choice.name, "command line", "--technique").input == passes::TechniqueInput::image) return;
   std::string usable;
   for (const auto& technique : passes::techniques()) {
     if (technique.input != passes::TechniqueInput::image) continue;
     usable += (usable.empty() ? "" : ", ") + std::string(technique.name);
   }
-  failUsage("--technique", choice.name + " draws the scene and cannot work on a picture",
-            "those that can: " + usable);
+  failUsage("--technique", choice.name + " draws the scene and cannot work on a picture", "those that can: " + usable);
 }
 
 }  // namespace
@@ -90,8 +87,7 @@ int runApply(const ApplyArguments& arguments, const GlobalArguments& global) {
                               .execute = {},
                               .wantDepth = false,
                               .progress = [&](uint32_t done, uint32_t total) { bar.update(done, total); }};
-  options.execute.timing =
-      arguments.capture ? rendergraph::Timing::isolated : rendergraph::Timing::inlineTimestamps;
+  options.execute.timing = arguments.capture ? rendergraph::Timing::isolated : rendergraph::Timing::inlineTimestamps;
   const auto rendering = renderer.apply(color, depth, arguments.fovyDeg, lens, options);
   bar.wipe();
 

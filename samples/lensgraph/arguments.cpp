@@ -33,8 +33,7 @@ PictureSize parseSize(const std::string& text) {
   }
   const auto fits = [](int pixels) { return pixels >= 1 && pixels <= host::kMaxResolution; };
   if (!fits(size.width) || !fits(size.height)) {
-    failUsage("--size",
-              "is " + text + ", each side must be from 1 to " + std::to_string(host::kMaxResolution) + " px",
+    failUsage("--size", "is " + text + ", each side must be from 1 to " + std::to_string(host::kMaxResolution) + " px",
               "");
   }
   return size;
@@ -85,35 +84,27 @@ Action addRender(CLI::App& app) {
   addExposure(*sub, a->exposureEv);
   sub->add_option("--capture", a->capture, "Write times, memory, device, parameters")->type_name("FILE.json");
   sub->add_option("--depth-out", a->depthOut, "Write view depth in metres")->type_name("FILE.exr");
-  sub->add_option("-o,--output", a->output, "Picture to write: .exr, .png or .hdr")
-      ->type_name("OUT")
-      ->required();
+  sub->add_option("-o,--output", a->output, "Picture to write: .exr, .png or .hdr")->type_name("OUT")->required();
   return [a](const GlobalArguments& global) { return runRender(*a, global); };
 }
 
 Action addApply(CLI::App& app) {
-  auto* sub =
-      app.add_subcommand("apply", "Blur a picture by its depth with a technique that works on images");
+  auto* sub = app.add_subcommand("apply", "Blur a picture by its depth with a technique that works on images");
   auto a = std::make_shared<ApplyArguments>();
   sub->add_option("--color", a->color, "Linear colour")->type_name("C.exr")->required();
   sub->add_option("--depth", a->depth, "Linear view depth in metres")->type_name("Z.exr")->required();
   sub->add_option("--fovy", a->fovyDeg, "Vertical field of view")->type_name("DEG")->required();
-  auto* radius =
-      sub->add_option("--aperture-radius", a->apertureRadius, "Lens radius in metres")->type_name("M");
+  auto* radius = sub->add_option("--aperture-radius", a->apertureRadius, "Lens radius in metres")->type_name("M");
   auto* focal = sub->add_option("--focal-length-mm", a->focalLengthMm, "Focal length")->type_name("F");
   auto* fStop = sub->add_option("--fstop", a->fStop, "f-number; 0 turns depth of field off")->type_name("N");
   radius->excludes(focal)->excludes(fStop);
   focal->needs(fStop);
   fStop->needs(focal);
-  sub->add_option("--focus", a->focusDistance, "Focus distance in metres, or infinity")
-      ->type_name("D")
-      ->required();
+  sub->add_option("--focus", a->focusDistance, "Focus distance in metres, or infinity")->type_name("D")->required();
   addTechnique(*sub, a->technique, true);
   addExposure(*sub, a->exposureEv);
   sub->add_option("--capture", a->capture, "Write times, memory, device, parameters")->type_name("FILE.json");
-  sub->add_option("-o,--output", a->output, "Picture to write: .exr, .png or .hdr")
-      ->type_name("OUT")
-      ->required();
+  sub->add_option("-o,--output", a->output, "Picture to write: .exr, .png or .hdr")->type_name("OUT")->required();
   return [a](const GlobalArguments& global) { return runApply(*a, global); };
 }
 
@@ -153,12 +144,10 @@ Action addGraph(CLI::App& app) {
 }
 
 Action addDemo(CLI::App& app) {
-  auto* sub =
-      app.add_subcommand("demo", "Render the sample scenes with every technique and write a page of them");
+  auto* sub = app.add_subcommand("demo", "Render the sample scenes with every technique and write a page of them");
   auto a = std::make_shared<DemoArguments>();
   sub->add_option("-o,--output", a->output, "Folder to write")->type_name("DIR")->capture_default_str();
-  sub->add_option("--scenes", a->scenes, "Folder of shot files instead of the project's own")
-      ->type_name("DIR");
+  sub->add_option("--scenes", a->scenes, "Folder of shot files instead of the project's own")->type_name("DIR");
   sub->add_option("--width", a->width, "Picture width in pixels")
       ->type_name("PX")
       ->check(CLI::Range(16, 4096))
@@ -209,9 +198,7 @@ std::string suggestion(const CLI::App& app, const std::string& word) {
   const auto unknown = app.remaining(true);
   if (!unknown.empty()) {
     const bool option = unknown.front().starts_with("-");
-    const std::string kind = option           ? "is no option"
-                             : sub == nullptr ? "is no subcommand"
-                                              : "was not expected";
+    const std::string kind = option ? "is no option" : sub == nullptr ? "is no subcommand" : "was not expected";
     failUsage(unknown.front(), kind, suggestion(app, unknown.front()));
   }
   failUsage(sub == nullptr ? "" : sub->get_name(), error.what(), suggestion(app, ""));
@@ -228,8 +215,7 @@ int run(int argc, char** argv) {
   app.footer("Exit codes: 0 done, 1 failed at run time, 2 bad input or usage.");
   app.fallthrough();  // global options may stand after the subcommand
   GlobalArguments global;
-  app.add_option("--device", global.device,
-                 "Vulkan device: index or part of its name (see lensgraph devices)")
+  app.add_option("--device", global.device, "Vulkan device: index or part of its name (see lensgraph devices)")
       ->type_name("INDEX|NAME");
   app.add_flag("--validate", global.validation, "Turn on validation and synchronization validation");
   app.add_flag("-v,--verbose", global.verbose, "Say more on stderr");

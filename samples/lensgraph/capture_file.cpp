@@ -32,8 +32,7 @@ std::string hashOfFiles(const std::vector<std::filesystem::path>& files) {
   uint64_t hash = 0xcbf29ce484222325u;
   for (const auto& file : files) {
     std::ifstream stream(file, std::ios::binary);
-    for (auto byte = std::istreambuf_iterator<char>(stream); byte != std::istreambuf_iterator<char>{};
-         ++byte) {
+    for (auto byte = std::istreambuf_iterator<char>(stream); byte != std::istreambuf_iterator<char>{}; ++byte) {
       hash = (hash ^ static_cast<unsigned char>(*byte)) * 0x100000001b3u;
     }
   }
@@ -47,8 +46,7 @@ json captureJson(const engine::DeviceDescription& device, const CaptureInput& in
   json parameters = json::object();
   for (const auto& info : host::requireTechnique(choice.name, "", "").parameters) {
     const auto given = choice.parameters.find(info.name);
-    parameters[std::string(info.name)] =
-        toJson(given == choice.parameters.end() ? info.defaultValue : given->second);
+    parameters[std::string(info.name)] = toJson(given == choice.parameters.end() ? info.defaultValue : given->second);
   }
   std::stringstream graph;
   rendergraph::writeJson(graph, rendering.capture);
@@ -60,8 +58,7 @@ json captureJson(const engine::DeviceDescription& device, const CaptureInput& in
       {"inputHash", hashOfFiles(input.files)},
       {"resolution", {rendering.color.width, rendering.color.height}},
       {"lens",
-       {{"apertureRadius", engine::apertureRadius(*input.lens)},
-        {"focusDistance", toJson(input.lens->focusDistance)}}},
+       {{"apertureRadius", engine::apertureRadius(*input.lens)}, {"focusDistance", toJson(input.lens->focusDistance)}}},
       {"technique", {{"name", choice.name}, {"parameters", std::move(parameters)}}},
       {"gpuMs", rendering.gpuMs},
       {"wallMs", rendering.wallMs},

@@ -13,8 +13,7 @@ namespace cli {
 int runCompare(const CompareArguments& arguments) {
   const auto picture = engine::readImage(arguments.picture);
   const auto reference = engine::readImage(arguments.reference);
-  const auto metrics =
-      engine::compareImages(picture, reference, {.exposureEv = arguments.exposureEv, .mask = nullptr});
+  const auto metrics = engine::compareImages(picture, reference, {.exposureEv = arguments.exposureEv, .mask = nullptr});
   if (arguments.json) {
     const nlohmann::ordered_json json = {
         {"picture", arguments.picture.string()},
@@ -38,8 +37,7 @@ int runCompare(const CompareArguments& arguments) {
   } else {
     std::printf("SSIM           none: the picture is too small\n");
   }
-  std::printf("maximum error  %.6g displayed, %.6g linear\n", metrics.maxErrorDisplayed,
-              metrics.maxErrorLinear);
+  std::printf("maximum error  %.6g displayed, %.6g linear\n", metrics.maxErrorDisplayed, metrics.maxErrorLinear);
   std::printf("relative RMSE  %.6g\n", metrics.relativeRmse);
   if (metrics.nonFinitePixels + metrics.nonFiniteReference > 0) {
     std::printf("not finite     %llu pixels, %llu of the reference\n",

@@ -32,20 +32,16 @@ constexpr int64_t kQuickSamples = 32;
 std::vector<path> shotsIn(const path& folder) {
   std::error_code code;
   if (!std::filesystem::is_directory(folder, code)) {
-    throw engine::Error({.file = folder.string(),
-                         .field = "--scenes",
-                         .reason = "no such folder",
-                         .remedy = "check the path"});
+    throw engine::Error(
+        {.file = folder.string(), .field = "--scenes", .reason = "no such folder", .remedy = "check the path"});
   }
   std::vector<path> shots;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (entry.path().extension() == ".json") shots.push_back(entry.path());
   }
   if (shots.empty()) {
-    throw engine::Error({.file = folder.string(),
-                         .field = "--scenes",
-                         .reason = "holds no shot files (*.json)",
-                         .remedy = {}});
+    throw engine::Error(
+        {.file = folder.string(), .field = "--scenes", .reason = "holds no shot files (*.json)", .remedy = {}});
   }
   std::sort(shots.begin(), shots.end());
   return shots;
@@ -164,11 +160,10 @@ int runDemo(const DemoArguments& arguments, const GlobalArguments& global) {
   std::cout << "device  " << device << "\n" << std::flush;
 
   const std::string commit = kCommit;
-  DemoReport report{
-      .device = device,
-      .version = std::string("lensgraph ") + kVersion + (commit.empty() ? "" : " (" + commit + ")"),
-      .referenceSamples = arguments.referenceSamples,
-      .scenes = {}};
+  DemoReport report{.device = device,
+                    .version = std::string("lensgraph ") + kVersion + (commit.empty() ? "" : " (" + commit + ")"),
+                    .referenceSamples = arguments.referenceSamples,
+                    .scenes = {}};
   {
     Steps steps(shots.size() * (1 + passes::techniques().size()));
     for (const auto& shot : shots) report.scenes.push_back(renderScene(session, shot, arguments, steps));
@@ -178,8 +173,7 @@ int runDemo(const DemoArguments& arguments, const GlobalArguments& global) {
 
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   std::cout << "\n" << demoTable(report) << "\npage    " << page.string() << "\n";
-  std::printf("took    %.0f s; reference: accumulation, %d lens samples\n", seconds,
-              arguments.referenceSamples);
+  std::printf("took    %.0f s; reference: accumulation, %d lens samples\n", seconds, arguments.referenceSamples);
   return session.finish();
 }
 

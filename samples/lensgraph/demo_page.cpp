@@ -30,18 +30,16 @@ std::string ssimText(const std::optional<double>& ssim) {
 }
 
 json resultJson(const DemoResult& result) {
-  return {{"technique", result.technique},   {"title", result.title},
-          {"picture", result.picture},       {"errorPicture", result.errorPicture},
-          {"gpuMs", fixed(result.gpuMs, 2)}, {"wallMs", fixed(result.wallMs, 2)},
-          {"psnr", fixed(result.psnr, 2)},   {"ssim", ssimText(result.ssim)}};
+  return {{"technique", result.technique},       {"title", result.title},           {"picture", result.picture},
+          {"errorPicture", result.errorPicture}, {"gpuMs", fixed(result.gpuMs, 2)}, {"wallMs", fixed(result.wallMs, 2)},
+          {"psnr", fixed(result.psnr, 2)},       {"ssim", ssimText(result.ssim)}};
 }
 
 json sceneJson(const DemoScene& scene) {
   json results = json::array();
   for (const auto& result : scene.results) results.push_back(resultJson(result));
   json choices = json::array({{{"label", "reference"}, {"file", scene.reference}}});
-  for (const auto& result : scene.results)
-    choices.push_back({{"label", result.technique}, {"file", result.picture}});
+  for (const auto& result : scene.results) choices.push_back({{"label", result.technique}, {"file", result.picture}});
   // The slider opens on the first technique's picture against the reference.
   return {{"id", scene.id},
           {"sceneName", scene.name},
@@ -98,24 +96,22 @@ std::string demoTable(const DemoReport& report) {
   std::size_t sceneWidth = 5, techniqueWidth = 9;
   for (const auto& scene : report.scenes) {
     sceneWidth = std::max(sceneWidth, scene.id.size());
-    for (const auto& result : scene.results)
-      techniqueWidth = std::max(techniqueWidth, result.technique.size());
+    for (const auto& result : scene.results) techniqueWidth = std::max(techniqueWidth, result.technique.size());
   }
   std::string table;
   const auto addRow = [&](const std::string& scene, const std::string& technique, const std::string& gpu,
                           const std::string& wall, const std::string& psnr, const std::string& ssim) {
     char row[512];
-    std::snprintf(row, sizeof row, "%-*s  %-*s  %10s  %10s  %8s  %7s\n", static_cast<int>(sceneWidth),
-                  scene.c_str(), static_cast<int>(techniqueWidth), technique.c_str(), gpu.c_str(),
-                  wall.c_str(), psnr.c_str(), ssim.c_str());
+    std::snprintf(row, sizeof row, "%-*s  %-*s  %10s  %10s  %8s  %7s\n", static_cast<int>(sceneWidth), scene.c_str(),
+                  static_cast<int>(techniqueWidth), technique.c_str(), gpu.c_str(), wall.c_str(), psnr.c_str(),
+                  ssim.c_str());
     table += row;
   };
   addRow("scene", "technique", "GPU ms", "wall ms", "PSNR dB", "SSIM");
   for (const auto& scene : report.scenes) {
     for (const auto& result : scene.results) {
       addRow(scene.id, result.technique, fixed(result.gpuMs, 2), fixed(result.wallMs, 2),
-             std::isinf(result.psnr) ? "equal" : fixed(result.psnr, 2),
-             result.ssim ? fixed(*result.ssim, 4) : "-");
+             std::isinf(result.psnr) ? "equal" : fixed(result.psnr, 2), result.ssim ? fixed(*result.ssim, 4) : "-");
     }
   }
   return table;

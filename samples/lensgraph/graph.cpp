@@ -26,11 +26,8 @@ int runGraph(const GraphArguments& arguments, const GlobalArguments& global) {
   host::Renderer renderer(session.device(), shot, warnings);
   Session::report(warnings);
 
-  const host::RenderOptions options{.technique = choice.name,
-                                    .parameters = choice.parameters,
-                                    .execute = {},
-                                    .wantDepth = false,
-                                    .progress = {}};
+  const host::RenderOptions options{
+      .technique = choice.name, .parameters = choice.parameters, .execute = {}, .wantDepth = false, .progress = {}};
   rendergraph::Graph graph;
   renderer.declare(graph, shot, options);
   const auto plan = renderer.compile(graph, options.execute.compile);

@@ -34,8 +34,7 @@ path besides(const path& file) {
 
 void checkExtension(const path& file, std::string_view option, std::span<const std::string_view> extensions) {
   const std::string extension = lowerExtension(file);
-  if (extensions.empty() || std::find(extensions.begin(), extensions.end(), extension) != extensions.end())
-    return;
+  if (extensions.empty() || std::find(extensions.begin(), extensions.end(), extension) != extensions.end()) return;
   std::string known;
   for (const auto each : extensions) known += (known.empty() ? "" : ", ") + std::string(each);
   throw engine::Error({.file = file.string(),
@@ -48,8 +47,7 @@ void checkExtension(const path& file, std::string_view option, std::span<const s
 
 void checkOutput(const path& file, std::string_view option, std::span<const std::string_view> extensions) {
   const auto fail = [&](const std::string& reason, const std::string& remedy) {
-    throw engine::Error(
-        {.file = file.string(), .field = std::string(option), .reason = reason, .remedy = remedy});
+    throw engine::Error({.file = file.string(), .field = std::string(option), .reason = reason, .remedy = remedy});
   };
   if (file.empty()) fail("is empty", "name a file");
   checkExtension(file, option, extensions);
@@ -87,9 +85,8 @@ void writeTextFile(const path& file, std::string_view text) {
   if (!stream || code) {
     const std::string reason = code ? code.message() : std::strerror(errno);
     std::filesystem::remove(temporary, code);
-    throw engine::Error(
-        {.file = file.string(), .field = {}, .reason = "cannot be written: " + reason, .remedy = {}},
-        engine::ErrorKind::failed);
+    throw engine::Error({.file = file.string(), .field = {}, .reason = "cannot be written: " + reason, .remedy = {}},
+                        engine::ErrorKind::failed);
   }
 }
 

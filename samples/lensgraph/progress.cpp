@@ -34,8 +34,8 @@ void ProgressBar::update(uint32_t done, uint32_t total) {
   const double share = static_cast<double>(done) / total;
   const int filled = static_cast<int>(share * kBarWidth);
   const double seconds = std::chrono::duration<double>(now - start_).count();
-  std::fprintf(stderr, "\r%s [%.*s%*s] %3.0f %%  %u/%u", label_.c_str(), filled,
-               "##############################", kBarWidth - filled, "", share * 100.0, done, total);
+  std::fprintf(stderr, "\r%s [%.*s%*s] %3.0f %%  %u/%u", label_.c_str(), filled, "##############################",
+               kBarWidth - filled, "", share * 100.0, done, total);
   if (done > 0) std::fprintf(stderr, "  %.0f s left", seconds / done * (total - done));
   std::fputs("\033[K", stderr);
   std::fflush(stderr);

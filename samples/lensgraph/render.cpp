@@ -25,9 +25,8 @@ void checkOutputs(const RenderArguments& arguments) {
   if (arguments.exposureEv) warnUnusedExposure(arguments.output);
 }
 
-void writeOutputs(const RenderArguments& arguments, const host::Shot& shot,
-                  const host::TechniqueChoice& choice, const engine::DeviceDescription& device,
-                  const host::Rendering& rendering) {
+void writeOutputs(const RenderArguments& arguments, const host::Shot& shot, const host::TechniqueChoice& choice,
+                  const engine::DeviceDescription& device, const host::Rendering& rendering) {
   engine::writeImage(arguments.output, rendering.color, {.exposureEv = arguments.exposureEv.value_or(0.0)});
   if (arguments.depthOut) engine::writeImage(*arguments.depthOut, rendering.depth);
   if (!arguments.capture) return;
@@ -59,8 +58,7 @@ int runRender(const RenderArguments& arguments, const GlobalArguments& global) {
                               .wantDepth = arguments.depthOut.has_value(),
                               .progress = [&](uint32_t done, uint32_t total) { bar.update(done, total); }};
   // Isolated passes are timed rightly on every device; a picture alone need not pay for that.
-  options.execute.timing =
-      arguments.capture ? rendergraph::Timing::isolated : rendergraph::Timing::inlineTimestamps;
+  options.execute.timing = arguments.capture ? rendergraph::Timing::isolated : rendergraph::Timing::inlineTimestamps;
   const host::Rendering rendering = renderer.render(shot, options);
   bar.wipe();
 

@@ -55,14 +55,12 @@ void printSummary(const engine::DeviceDescription& device, const host::Technique
   for (const auto& parameter : host::requireTechnique(choice.name, "", "").parameters) {
     const auto given = choice.parameters.find(parameter.name);
     const auto& value = given == choice.parameters.end() ? parameter.defaultValue : given->second;
-    std::printf("           %s = %s%s%s\n", std::string(parameter.name).c_str(),
-                passes::toString(value).c_str(), parameter.unit.empty() ? "" : " ",
-                std::string(parameter.unit).c_str());
+    std::printf("           %s = %s%s%s\n", std::string(parameter.name).c_str(), passes::toString(value).c_str(),
+                parameter.unit.empty() ? "" : " ", std::string(parameter.unit).c_str());
   }
   std::printf("picture    %u x %u px\n", rendering.color.width, rendering.color.height);
   std::printf("time       GPU %.2f ms, wall %.2f ms\n", rendering.gpuMs, rendering.wallMs);
-  if (rendering.estimatedError >= 0.0)
-    std::printf("estimate   RMS error %.2g left\n", rendering.estimatedError);
+  if (rendering.estimatedError >= 0.0) std::printf("estimate   RMS error %.2g left\n", rendering.estimatedError);
   if (rendering.statistics.replacedTexels > 0) {
     spdlog::warn("{} texels that were not finite were replaced by 0", rendering.statistics.replacedTexels);
   }

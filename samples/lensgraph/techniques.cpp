@@ -82,8 +82,7 @@ int runTechniques(bool json) {
   for (const auto& technique : passes::techniques()) {
     std::cout << technique.name << ": " << technique.title << " (" << technique.source << ")\n"
               << "  works on "
-              << (technique.input == passes::TechniqueInput::image ? "any picture with depth" : "scenes")
-              << "\n";
+              << (technique.input == passes::TechniqueInput::image ? "any picture with depth" : "scenes") << "\n";
     for (const auto& info : technique.parameters) {
       std::cout << "  " << info.name << " = " << passes::toString(info.defaultValue);
       if (!info.unit.empty()) std::cout << " " << info.unit;

@@ -19,8 +19,7 @@ class BadInput : public cli_test::ProgramTest {
     expectError(arguments, 2, parts);
   }
   /// Renders shot.json after one change of it.
-  void expectShotRefused(const std::string& pointer, const json& value,
-                         const std::vector<std::string>& parts) const {
+  void expectShotRefused(const std::string& pointer, const json& value, const std::vector<std::string>& parts) const {
     json changed = shot();
     changed[json::json_pointer(pointer)] = value;
     writeShot(changed);
@@ -35,8 +34,7 @@ TEST_F(BadInput, MissingShot) {
 }
 
 TEST_F(BadInput, MissingScene) {
-  expectShotRefused("/scene/0/path", "absent.glb",
-                    {"shot.json", "scene[0].path", "absent.glb", "no such file"});
+  expectShotRefused("/scene/0/path", "absent.glb", {"shot.json", "scene[0].path", "absent.glb", "no such file"});
 }
 
 TEST_F(BadInput, MalformedJson) {
@@ -82,8 +80,8 @@ TEST_F(BadInput, EmptyImage) {
 TEST_F(BadInput, EmptyPictures) {
   write("empty.exr", "");
   expectRefused({"compare", "empty.exr", "empty.exr"}, {"empty.exr"});
-  expectRefused({"apply", "--color", "empty.exr", "--depth", "empty.exr", "--fovy", "40", "--aperture-radius",
-                 "0.01", "--focus", "1", "--technique", "two_pass_filter", "-o", "out.exr"},
+  expectRefused({"apply", "--color", "empty.exr", "--depth", "empty.exr", "--fovy", "40", "--aperture-radius", "0.01",
+                 "--focus", "1", "--technique", "two_pass_filter", "-o", "out.exr"},
                 {"empty.exr"});
 }
 
@@ -96,15 +94,13 @@ TEST_F(BadInput, PicturesOfDifferentSizes) {
 // ---- Techniques and parameters
 
 TEST_F(BadInput, UnknownTechnique) {
-  expectRefused({"render", "shot.json", "--technique", "pinhol", "-o", "out.exr"},
-                {"pinhol", "did you mean pinhole?"});
+  expectRefused({"render", "shot.json", "--technique", "pinhol", "-o", "out.exr"}, {"pinhol", "did you mean pinhole?"});
   expectShotRefused("/technique", {{"name", "acumulation"}}, {"technique.name", "accumulation"});
 }
 
 TEST_F(BadInput, UnknownParameter) {
-  expectRefused(
-      {"render", "shot.json", "--technique", "accumulation", "--set", "lensSample=4", "-o", "out.exr"},
-      {"lensSample", "did you mean", "lensSamples"});
+  expectRefused({"render", "shot.json", "--technique", "accumulation", "--set", "lensSample=4", "-o", "out.exr"},
+                {"lensSample", "did you mean", "lensSamples"});
   expectShotRefused("/technique", {{"name", "accumulation"}, {"lensSample", 4}},
                     {"technique.lensSample", "lensSamples"});
 }
@@ -112,16 +108,15 @@ TEST_F(BadInput, UnknownParameter) {
 TEST_F(BadInput, ParameterOutOfRange) {
   for (const std::string value : {"0", "-1", "65537", "1e99", "many", "nan", ""}) {
     SCOPED_TRACE(value);
-    expectRefused({"render", "shot.json", "--technique", "accumulation", "--set", "lensSamples=" + value,
-                   "-o", "out.exr"},
-                  {"lensSamples"});
+    expectRefused(
+        {"render", "shot.json", "--technique", "accumulation", "--set", "lensSamples=" + value, "-o", "out.exr"},
+        {"lensSamples"});
   }
   expectShotRefused("/technique", {{"name", "accumulation"}, {"lensSamples", 0}}, {"technique.lensSamples"});
 }
 
 TEST_F(BadInput, ConfigurationFile) {
-  const std::vector<std::string> arguments = {"render",      "shot.json", "--config",
-                                              "config.json", "-o",        "out.exr"};
+  const std::vector<std::string> arguments = {"render", "shot.json", "--config", "config.json", "-o", "out.exr"};
   expectRefused(arguments, {"config.json", "no such file"});
   write("config.json", "{\"technique\": {\"name\": \"accumulation\", \"lensSamples\": }}");
   expectRefused(arguments, {"config.json", "line 1, column"});
@@ -153,8 +148,7 @@ TEST_F(BadInput, Resolution) {
 }
 
 TEST_F(BadInput, FocusDistance) {
-  for (const double focus : {0.0, -1.0})
-    expectShotRefused("/lens/focusDistance", focus, {"lens.focusDistance"});
+  for (const double focus : {0.0, -1.0}) expectShotRefused("/lens/focusDistance", focus, {"lens.focusDistance"});
   expectShotRefused("/lens/focusDistance", "nan", {"lens.focusDistance", "infinity"});
 }
 
@@ -189,9 +183,8 @@ TEST_F(BadInput, LensOfApply) {
   };
   for (const auto& [lens, option] : rows) {
     SCOPED_TRACE(testing::PrintToString(lens));
-    std::vector<std::string> arguments = {"apply",           "--color", "c.exr",  "--depth",
-                                          "z.exr",           "--fovy",  "40",     "--technique",
-                                          "two_pass_filter", "-o",      "out.exr"};
+    std::vector<std::string> arguments = {"apply", "--color",     "c.exr",           "--depth", "z.exr",  "--fovy",
+                                          "40",    "--technique", "two_pass_filter", "-o",      "out.exr"};
     arguments.insert(arguments.end(), lens.begin(), lens.end());
     expectRefused(arguments, {option});
   }
@@ -206,17 +199,14 @@ TEST_F(BadInput, Exposure) {
 // ---- Outputs
 
 TEST_F(BadInput, UnwritableOutput) {
-  expectRefused({"render", "shot.json", "-o", "absent/out.exr"},
-                {"absent/out.exr", "no such folder: absent"});
+  expectRefused({"render", "shot.json", "-o", "absent/out.exr"}, {"absent/out.exr", "no such folder: absent"});
   expectRefused({"render", "shot.json", "-o", "/proc/out.exr"}, {"/proc/out.exr", "cannot be written"});
   expectRefused({"render", "shot.json", "-o", "shot.json/out.exr"}, {"shot.json/out.exr"});
   std::filesystem::create_directory(folder() / "folder.exr");
   expectRefused({"render", "shot.json", "-o", "folder.exr"}, {"folder.exr", "is a folder"});
-  expectRefused({"render", "shot.json", "-o", "out.exr", "--capture", "absent/c.json"},
-                {"absent/c.json", "--capture"});
+  expectRefused({"render", "shot.json", "-o", "out.exr", "--capture", "absent/c.json"}, {"absent/c.json", "--capture"});
   expectRefused({"render", "shot.json", "-o", "out.exr", "--depth-out", "z.png"}, {"z.png", ".exr"});
-  expectRefused({"graph", "shot.json", "--technique", "pinhole", "--dot", "absent/g.dot"},
-                {"absent/g.dot", "--dot"});
+  expectRefused({"graph", "shot.json", "--technique", "pinhole", "--dot", "absent/g.dot"}, {"absent/g.dot", "--dot"});
 }
 
 TEST_F(BadInput, UnknownPictureFormat) {
@@ -229,8 +219,7 @@ TEST_F(BadInput, UnknownPictureFormat) {
 TEST_F(BadInput, Usage) {
   expectRefused({}, {"command line", "no subcommand", "--help"});
   expectRefused({"rendr", "shot.json"}, {"rendr", "did you mean render?"});
-  expectRefused({"render", "shot.json", "--techniqe", "pinhole", "-o", "out.exr"},
-                {"--techniqe", "--technique"});
+  expectRefused({"render", "shot.json", "--techniqe", "pinhole", "-o", "out.exr"}, {"--techniqe", "--technique"});
   expectRefused({"render", "shot.json"}, {"render", "--output"});
   expectRefused({"render", "-o", "out.exr"}, {"render", "shot"});
   expectRefused({"render", "shot.json", "-o", "out.exr", "--set", "noEquals"}, {"noEquals", "key=value"});

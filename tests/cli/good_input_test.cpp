@@ -36,8 +36,7 @@ class GoodInput : public cli_test::ProgramTest {
     ASSERT_GE(image.channels, 3u);
     for (uint32_t y = 0; y < image.height; ++y) {
       for (uint32_t x = 0; x < image.width; ++x) {
-        for (int i = 0; i < 3; ++i)
-          ASSERT_NEAR(image.pixel(x, y)[i], color[i], 1e-3 * color[i]) << x << " " << y;
+        for (int i = 0; i < 3; ++i) ASSERT_NEAR(image.pixel(x, y)[i], color[i], 1e-3 * color[i]) << x << " " << y;
       }
     }
   }
@@ -62,8 +61,7 @@ TEST_F(GoodInput, EveryTechniqueHasAGraph) {
   for (const auto& technique : passes::techniques()) {
     SCOPED_TRACE(technique.name);
     const std::string name(technique.name);
-    const auto outcome =
-        run({"graph", "shot.json", "--technique", name, "--dot", "-", "--json", "graph.json"});
+    const auto outcome = run({"graph", "shot.json", "--technique", name, "--dot", "-", "--json", "graph.json"});
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_THAT(outcome.out, StartsWith("digraph"));
     EXPECT_THAT(outcome.err, HasSubstr("device "));
@@ -91,8 +89,8 @@ TEST_F(GoodInput, ExposureBrightensPng) {
 }
 
 TEST_F(GoodInput, CaptureSaysWhatWasDone) {
-  render({"--technique", "accumulation", "--set", "lensSamples=4", "--set", "pixelJitter=false", "--capture",
-          "c.json"});
+  render(
+      {"--technique", "accumulation", "--set", "lensSamples=4", "--set", "pixelJitter=false", "--capture", "c.json"});
   std::ifstream file(folder() / "c.json");
   const auto capture = json::parse(file);
   EXPECT_FALSE(capture["device"]["name"].get<std::string>().empty());
@@ -151,9 +149,8 @@ TEST_F(GoodInput, TechniquesOnAnyPictureWithDepth) {
   for (const auto& technique : passes::techniques()) {
     if (technique.input != passes::TechniqueInput::image) continue;
     SCOPED_TRACE(technique.name);
-    runWell({"apply", "--validate", "--color", "c.exr", "--depth", "z.exr", "--fovy", "40",
-             "--focal-length-mm", "50", "--fstop", "2", "--focus", "infinity", "--technique",
-             std::string(technique.name), "-o", "out.exr"});
+    runWell({"apply", "--validate", "--color", "c.exr", "--depth", "z.exr", "--fovy", "40", "--focal-length-mm", "50",
+             "--fstop", "2", "--focus", "infinity", "--technique", std::string(technique.name), "-o", "out.exr"});
     const auto image = engine::readImage(folder() / "out.exr");
     EXPECT_NEAR(image.pixel(8, 6)[0], 0.5f, 5e-4f);
     EXPECT_NEAR(image.pixel(0, 0)[2], 0.5f, 5e-4f);
@@ -163,8 +160,7 @@ TEST_F(GoodInput, TechniquesOnAnyPictureWithDepth) {
 TEST_F(GoodInput, OutputsAppearWholeAndAlone) {
   render({"--technique", "pinhole"});
   for (const auto& entry : std::filesystem::directory_iterator(folder())) {
-    EXPECT_THAT(entry.path().filename().string(),
-                testing::AnyOf("quad.gltf", "quad.bin", "shot.json", "out.exr"));
+    EXPECT_THAT(entry.path().filename().string(), testing::AnyOf("quad.gltf", "quad.bin", "shot.json", "out.exr"));
   }
 }
 
@@ -220,8 +216,8 @@ TEST_F(GoodInput, DemoWritesAPageWithItsPictures) {
   for (const auto* file : {"quad.gltf", "quad.bin", "shot.json"}) {
     std::filesystem::copy(folder() / file, folder() / "scenes" / file);
   }
-  const auto said = runWell({"demo", "--validate", "--scenes", "scenes", "-o", "demo", "--width", "32",
-                             "--reference-samples", "16"});
+  const auto said =
+      runWell({"demo", "--validate", "--scenes", "scenes", "-o", "demo", "--width", "32", "--reference-samples", "16"});
   std::ifstream stream(folder() / "demo" / "index.html");
   const std::string page{std::istreambuf_iterator<char>(stream), {}};
   EXPECT_THAT(said, testing::AllOf(HasSubstr("device"), HasSubstr("PSNR"), HasSubstr("index.html")));

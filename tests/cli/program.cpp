@@ -63,8 +63,7 @@ json quadJson(const QuadOptions& options) {
       {"scenes", {{{"nodes", {0}}}}},
       {"nodes", {{{"mesh", 0}}}},
       {"meshes",
-       {{{"primitives",
-          {{{"attributes", {{"POSITION", 0}, {"TEXCOORD_0", 1}}}, {"indices", 2}, {"material", 0}}}}}}},
+       {{{"primitives", {{{"attributes", {{"POSITION", 0}, {"TEXCOORD_0", 1}}}, {"indices", 2}, {"material", 0}}}}}}},
       {"accessors",
        {{{"bufferView", 0},
          {"componentType", 5126},
@@ -106,10 +105,8 @@ Outcome run(const path& folder, const std::vector<std::string>& arguments) {
     _exit(127);
   }
   int status = 0;
-  if (child < 0 || waitpid(child, &status, 0) != child)
-    throw std::runtime_error("the program could not be run");
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), contentOf(outFile),
-          contentOf(errFile)};
+  if (child < 0 || waitpid(child, &status, 0) != child) throw std::runtime_error("the program could not be run");
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), contentOf(outFile), contentOf(errFile)};
 }
 
 ProgramTest::ProgramTest() {

@@ -45,8 +45,7 @@ class ProgramTest : public testing::Test {
   /// Status 0 and nothing on stderr; returns stdout.
   std::string runWell(const std::vector<std::string>& arguments) const;
   /// That status, one line on stderr that holds every part, nothing on stdout, and no file more than before.
-  void expectError(const std::vector<std::string>& arguments, int status,
-                   const std::vector<std::string>& parts) const;
+  void expectError(const std::vector<std::string>& arguments, int status, const std::vector<std::string>& parts) const;
 
  private:
   std::filesystem::path folder_, logs_;

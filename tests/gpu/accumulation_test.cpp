@@ -26,8 +26,7 @@ host::Shot wideShot(int width, int height) {
 }
 
 double luma(const float* p) {
-  return 0.2126 * static_cast<double>(p[0]) + 0.7152 * static_cast<double>(p[1]) +
-         0.0722 * static_cast<double>(p[2]);
+  return 0.2126 * static_cast<double>(p[0]) + 0.7152 * static_cast<double>(p[1]) + 0.0722 * static_cast<double>(p[2]);
 }
 
 double lumaError(const engine::FloatImage& a, const engine::FloatImage& b) {
@@ -55,8 +54,8 @@ TEST_F(Accumulation, ConvergesFasterThanRandomSamplingAndKnowsItsError) {
       parameters["pattern"] = std::string(pattern);
       const auto rendering = render(renderer, shot, "accumulation", parameters);
       errors[i] = lumaError(rendering.color, truth);
-      std::printf("%-6s %4d samples: RMS error %.5f, estimate %.5f\n", pattern, static_cast<int>(counts[i]),
-                  errors[i], rendering.estimatedError);
+      std::printf("%-6s %4d samples: RMS error %.5f, estimate %.5f\n", pattern, static_cast<int>(counts[i]), errors[i],
+                  rendering.estimatedError);
       EXPECT_GE(rendering.estimatedError, errors[i]) << pattern << ' ' << counts[i];
       EXPECT_LE(rendering.estimatedError, 8.0 * errors[i]) << pattern << ' ' << counts[i];
     }
@@ -70,8 +69,7 @@ TEST_F(Accumulation, ConvergesFasterThanRandomSamplingAndKnowsItsError) {
 
 TEST_F(Accumulation, ViewsPerFrameDoNotShow) {
   auto scene = support::layeredScene();
-  support::addFacingQuad(scene, 1.2, 0.2, 0.0, 0.1, 0.3,
-                         support::addMaterial(scene, {0.1f, 0.9f, 0.2f, 0.4f}));
+  support::addFacingQuad(scene, 1.2, 0.2, 0.0, 0.1, 0.3, support::addMaterial(scene, {0.1f, 0.9f, 0.2f, 0.4f}));
   host::Renderer renderer(support::device(), scene, std::nullopt);
   auto shot = wideShot(61, 35);
   shot.lens.sphericalAberration = 0.5;
@@ -122,15 +120,13 @@ TEST_F(Accumulation, MaskedAndBlendedSurfacesOfOneColourStayThatColour) {
 // lens's mean.
 TEST_F(Accumulation, BlurredPanesKeepTheirCoverage) {
   engine::Scene scene;
-  support::addFacingQuad(scene, 1.0, 0.0, 0.0, 0.04, 0.04,
-                         support::addMaterial(scene, {1.0f, 0.0f, 0.0f, 0.25f}));
+  support::addFacingQuad(scene, 1.0, 0.0, 0.0, 0.04, 0.04, support::addMaterial(scene, {1.0f, 0.0f, 0.0f, 0.25f}));
   host::Renderer renderer(support::device(), scene, std::nullopt);
   const auto shot = wideShot(96, 96);
   const auto blurred = support::measureSpot(render(renderer, shot, "accumulation", samples(256)).color);
   auto sharp = shot;
   sharp.lens.apertureRadius = 0.0;
-  const auto pinhole =
-      support::measureSpot(render(renderer, sharp, "pinhole", {{"pixelSamples", int64_t{256}}}).color);
+  const auto pinhole = support::measureSpot(render(renderer, sharp, "pinhole", {{"pixelSamples", int64_t{256}}}).color);
   const double sidePx = 0.08 * support::pixelsPerTangent(shot);
   EXPECT_NEAR(pinhole.flux, 0.25 * sidePx * sidePx, 0.01 * pinhole.flux);
   EXPECT_NEAR(blurred.flux, pinhole.flux, 0.005 * pinhole.flux);
@@ -149,8 +145,7 @@ double discRightOf(double t) {
 // executions.
 TEST_F(Accumulation, ManyViewsOfAKnifeEdgeAreTheAnalyticProfile) {
   engine::Scene scene;
-  support::addFacingQuad(scene, 1.0, -4.0, 0.0, 4.0, 8.0,
-                         support::addMaterial(scene, {0.0f, 0.0f, 0.0f, 1.0f}));
+  support::addFacingQuad(scene, 1.0, -4.0, 0.0, 4.0, 8.0, support::addMaterial(scene, {0.0f, 0.0f, 0.0f, 1.0f}));
   host::Renderer renderer(support::device(), scene, std::nullopt);
   auto shot = wideShot(16, 8);
   shot.lens.apertureRadius = 0.8;
@@ -172,8 +167,7 @@ TEST_F(Accumulation, ManyViewsOfAKnifeEdgeAreTheAnalyticProfile) {
     for (uint32_t x = 0; x < 16; ++x) {
       double expected = 0.0;  // over the pixel's width
       constexpr int kSteps = 64;
-      for (int i = 0; i < kSteps; ++i)
-        expected += discRightOf((8.0 - (x + (i + 0.5) / kSteps)) / radius) / kSteps;
+      for (int i = 0; i < kSteps; ++i) expected += discRightOf((8.0 - (x + (i + 0.5) / kSteps)) / radius) / kSteps;
       worst = std::max(worst, std::abs(static_cast<double>(picture.pixel(x, y)[0]) - expected));
     }
   }
@@ -187,8 +181,8 @@ TEST_F(Accumulation, ManyViewsOfAKnifeEdgeAreTheAnalyticProfile) {
 TEST_F(Accumulation, FocusOutsideTheSceneIsTheThinLensFormulaToo) {
   auto shot = wideShot(96, 96);
   constexpr double kDepth = 4.0;
-  host::Renderer renderer(support::device(),
-                          support::lightScene(kDepth, 1.0, support::pixelsPerTangent(shot)), std::nullopt);
+  host::Renderer renderer(support::device(), support::lightScene(kDepth, 1.0, support::pixelsPerTangent(shot)),
+                          std::nullopt);
   for (const double focus : {0.6, 1.0, 40.0, 1e9, std::numeric_limits<double>::infinity()}) {
     shot.lens.focusDistance = focus;
     shot.lens.apertureRadius = focus < kDepth ? 0.1 : 0.4;

@@ -25,8 +25,7 @@ class ApertureShape : public support::GpuTest {
 
   /// The light `x`, `y` px from the picture's middle, through `samples` points of the lens.
   engine::FloatImage blur(double x = 0.0, double y = 0.0, bool gaussian = false, int64_t samples = 1024) {
-    host::Renderer renderer(support::device(),
-                            support::lightScene(kDepth, 1.0, support::pixelsPerTangent(shot_), x, y),
+    host::Renderer renderer(support::device(), support::lightScene(kDepth, 1.0, support::pixelsPerTangent(shot_), x, y),
                             std::nullopt);
     return support::render(renderer, shot_, "accumulation",
                            {{"lensSamples", samples}, {"viewsPerFrame", int64_t{64}}, {"gaussian", gaussian}})

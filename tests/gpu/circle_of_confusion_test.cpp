@@ -17,8 +17,7 @@ constexpr int kSide = 96;
 
 /// A square light that covers `sidePx` pixels in the pinhole picture, centred.
 host::Renderer lightAt(double depth, double sidePx, double pixelsPerTangent) {
-  return host::Renderer(support::device(), support::lightScene(depth, sidePx, pixelsPerTangent),
-                        std::nullopt);
+  return host::Renderer(support::device(), support::lightScene(depth, sidePx, pixelsPerTangent), std::nullopt);
 }
 
 class CircleOfConfusion : public support::GpuTest {};
@@ -32,12 +31,10 @@ TEST_F(CircleOfConfusion, OfAPointLightIsTheThinLensFormula) {
   const double nearPlane = 0.8;
   shot.camera.nearPlane = nearPlane;
   constexpr double kSidePx = 1.0;
-  for (const double depth :
-       {1.01 * nearPlane, 1.0, 1.2, 1.4, 1.6, 1.8, 1.9, 2.1, 2.3, 2.7, 3.5, 6.0, 20.0, 1e3, 1e6}) {
+  for (const double depth : {1.01 * nearPlane, 1.0, 1.2, 1.4, 1.6, 1.8, 1.9, 2.1, 2.3, 2.7, 3.5, 6.0, 20.0, 1e3, 1e6}) {
     auto renderer = lightAt(depth, kSidePx, s);
     const auto picture = render(renderer, shot, "accumulation", {{"lensSamples", int64_t{256}}});
-    const double expected =
-        s * shot.lens.apertureRadius * std::abs(1.0 / shot.lens.focusDistance - 1.0 / depth);
+    const double expected = s * shot.lens.apertureRadius * std::abs(1.0 / shot.lens.focusDistance - 1.0 / depth);
     // The light and the pixel are squares of 1 px: each adds 1/6 px² to the mean squared distance, in both
     // axes.
     const Spot spot = support::measureSpot(picture.color);
@@ -46,8 +43,7 @@ TEST_F(CircleOfConfusion, OfAPointLightIsTheThinLensFormula) {
     EXPECT_NEAR(spot.x, 0.5 * kSide, 0.05) << "depth " << depth;
     EXPECT_NEAR(spot.y, 0.5 * kSide, 0.05) << "depth " << depth;
     EXPECT_LE(spot.extent, expected + 2.2) << "depth " << depth;
-    RecordProperty("depth_" + std::to_string(depth),
-                   std::to_string(radius) + " px of " + std::to_string(expected));
+    RecordProperty("depth_" + std::to_string(depth), std::to_string(radius) + " px of " + std::to_string(expected));
     std::printf("depth %10.4g m: measured %8.4f px, thin lens %8.4f px\n", depth, radius, expected);
   }
 }

@@ -17,8 +17,7 @@ using testing::Not;
 class Devices : public support::GpuTest {};
 
 std::string mapped(std::string text, int (*letter)(int)) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [=](unsigned char c) { return static_cast<char>(letter(c)); });
+  std::transform(text.begin(), text.end(), text.begin(), [=](unsigned char c) { return static_cast<char>(letter(c)); });
   return text;
 }
 
@@ -46,16 +45,14 @@ TEST_F(Devices, AreChosenByIndexAndByPartOfTheNameInAnyCase) {
     const std::string part = list[i].name.substr(0, 5);
     for (const auto& select : {mapped(part, std::toupper), mapped(part, std::tolower)}) {
       const engine::Device byName({.select = select, .validation = false});
-      EXPECT_THAT(mapped(byName.description().name, std::tolower), HasSubstr(mapped(part, std::tolower)))
-          << select;
+      EXPECT_THAT(mapped(byName.description().name, std::tolower), HasSubstr(mapped(part, std::tolower))) << select;
     }
   }
 }
 
 TEST_F(Devices, ThatAreUnknownAreRefusedWithTheListOfThoseThereAre) {
   const auto list = engine::listDevices();
-  for (const std::string& select :
-       {std::string("no such device"), std::to_string(list.size()), std::string("-1")}) {
+  for (const std::string& select : {std::string("no such device"), std::to_string(list.size()), std::string("-1")}) {
     try {
       const engine::Device device({.select = select, .validation = false});
       ADD_FAILURE() << "'" << select << "' was taken for " << device.description().name;

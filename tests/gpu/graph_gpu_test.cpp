@@ -16,8 +16,7 @@ using rendergraph::Usage;
 /// Layers, a pane to blend, and a bright spot: every pass of every technique has work.
 engine::Scene busyScene() {
   auto scene = support::layeredScene();
-  support::addFacingQuad(scene, 1.2, 0.2, 0.0, 0.1, 0.3,
-                         support::addMaterial(scene, {0.1f, 0.9f, 0.2f, 0.4f}));
+  support::addFacingQuad(scene, 1.2, 0.2, 0.0, 0.1, 0.3, support::addMaterial(scene, {0.1f, 0.9f, 0.2f, 0.4f}));
   return scene;
 }
 
@@ -27,10 +26,8 @@ host::Rendering renderWith(host::Renderer& renderer, const std::string& techniqu
   options.technique = technique;
   options.execute = execute;
   options.wantDepth = true;
-  if (technique == "accumulation")
-    options.parameters = {{"lensSamples", int64_t{6}}, {"viewsPerFrame", int64_t{4}}};
-  if (technique == "pinhole")
-    options.parameters = {{"pixelSamples", int64_t{6}}, {"viewsPerFrame", int64_t{4}}};
+  if (technique == "accumulation") options.parameters = {{"lensSamples", int64_t{6}}, {"viewsPerFrame", int64_t{4}}};
+  if (technique == "pinhole") options.parameters = {{"pixelSamples", int64_t{6}}, {"viewsPerFrame", int64_t{4}}};
   return renderer.render(support::smallShot(97, 61), options);
 }
 
@@ -109,8 +106,7 @@ class PersistentFrames {
     read.record([=](rendergraph::PassContext& context) { context.copyImageToBuffer(kept, bytes); });
     auto clear = graph.addPass("clear", rendergraph::PassKind::transfer);
     kept = clear.write(kept, Usage::transferDestination);
-    clear.record(
-        [=](rendergraph::PassContext& context) { context.clearImage(kept, {.float32 = {clearTo}}); });
+    clear.record([=](rendergraph::PassContext& context) { context.clearImage(kept, {.float32 = {clearTo}}); });
     graph.exportBuffer(bytes, {.stages = VK_PIPELINE_STAGE_2_HOST_BIT, .access = VK_ACCESS_2_HOST_READ_BIT});
     executor_.execute(graph);
     std::vector<float> values(size / sizeof(float));

@@ -17,12 +17,11 @@ namespace {
 using rendergraph::Usage;
 
 template <class Texel>
-engine::GpuImage uploaded(VkExtent2D extent, VkFormat format, const std::vector<Texel>& texels,
-                          const char* name) {
+engine::GpuImage uploaded(VkExtent2D extent, VkFormat format, const std::vector<Texel>& texels, const char* name) {
   constexpr VkImageUsageFlags usage =
       VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-  auto image = engine::makeImage(device(), {.format = format, .width = extent.width, .height = extent.height},
-                                 usage, name);
+  auto image =
+      engine::makeImage(device(), {.format = format, .width = extent.width, .height = extent.height}, usage, name);
   engine::upload(device(), image, std::as_bytes(std::span(texels)));
   return image;
 }

@@ -33,8 +33,7 @@ class ImageTechniqueRunner {
   ImageTechniqueRunner();
   ~ImageTechniqueRunner();
 
-  ImageOutput run(std::string_view technique, const ImageInput& input,
-                  const passes::ParameterSet& parameters = {},
+  ImageOutput run(std::string_view technique, const ImageInput& input, const passes::ParameterSet& parameters = {},
                   rendergraph::Timing timing = rendergraph::Timing::none);
 
  private:

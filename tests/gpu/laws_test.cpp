@@ -56,7 +56,8 @@ TEST_P(Laws, ConstantColourStaysConstant) {
   const auto picture = render(renderer, shot, GetParam(), quick(GetParam())).color;
   double worst = 0.0;
   for (std::size_t i = 0; i < picture.pixelCount(); ++i) {
-    for (int c = 0; c < 3; ++c) worst = std::max(worst, std::abs(double(picture.samples[i * 4 + c]) / double(color[c]) - 1.0));
+    for (int c = 0; c < 3; ++c)
+      worst = std::max(worst, std::abs(double(picture.samples[i * 4 + c]) / double(color[c]) - 1.0));
     EXPECT_EQ(picture.samples[i * 4 + 3], 1.0f);
   }
   EXPECT_LE(worst, 1e-3);
@@ -65,7 +66,8 @@ TEST_P(Laws, ConstantColourStaysConstant) {
 TEST_P(Laws, FiniteInFiniteOut) {
   for (const float radiance : {0.0f, 1e-40f, 65504.0f, 1e30f, std::numeric_limits<float>::max()}) {
     engine::Scene scene = support::layeredScene();
-    support::addFacingQuad(scene, 1.0, 0.2, 0.1, 0.05, 0.1, support::addMaterial(scene, {radiance, -radiance, radiance, 1.0f}));
+    support::addFacingQuad(scene, 1.0, 0.2, 0.1, 0.05, 0.1,
+                           support::addMaterial(scene, {radiance, -radiance, radiance, 1.0f}));
     host::Renderer renderer(support::device(), scene, std::nullopt);
     const auto picture = render(renderer, support::smallShot(64, 36), GetParam(), quick(GetParam()));
     EXPECT_EQ(support::nonFiniteCount(picture.color), 0u) << "radiance " << radiance;

@@ -134,8 +134,7 @@ std::vector<LensCase> apertureCases() {
 double ulps(float a, float b, float scale) {
   if (a == b) return 0.0;
   const float size = std::max({std::abs(a), std::abs(b), std::abs(scale), std::numeric_limits<float>::min()});
-  const double step =
-      static_cast<double>(std::nextafter(size, std::numeric_limits<float>::infinity())) - size;
+  const double step = static_cast<double>(std::nextafter(size, std::numeric_limits<float>::infinity())) - size;
   return std::abs(static_cast<double>(a) - static_cast<double>(b)) / step;
 }
 
@@ -150,9 +149,8 @@ TEST_F(LensOnDevice, LensFunctionsGiveTheSameValuesAsInCpp) {
     const auto& c = cases[i];
     const auto expected = shared::evaluateLensCase(c);
     const float product = c.lens.vergenceScale * c.depthBuffer;
-    vergenceUlps =
-        std::max(vergenceUlps, ulps(results[i].vergenceFromDepthBuffer, expected.vergenceFromDepthBuffer,
-                                    std::max(std::abs(product), std::abs(c.lens.vergenceOffset))));
+    vergenceUlps = std::max(vergenceUlps, ulps(results[i].vergenceFromDepthBuffer, expected.vergenceFromDepthBuffer,
+                                               std::max(std::abs(product), std::abs(c.lens.vergenceOffset))));
     radiusUlps = std::max(radiusUlps, ulps(results[i].signedCocRadius, expected.signedCocRadius, 0.0f));
     differing += results[i].signedCocRadius != expected.signedCocRadius ? 1 : 0;
     ASSERT_TRUE(std::isfinite(results[i].signedCocRadius)) << i;
@@ -178,12 +176,10 @@ TEST_F(LensOnDevice, ApertureFunctionsGiveTheSameValuesAsInCpp) {
     const auto& found = results[i];
     const double size = std::max(static_cast<double>(expected.radiusSquared), 1e-30);
     const double off =
-        std::abs(static_cast<double>(found.radiusSquared) - static_cast<double>(expected.radiusSquared)) /
-        size;
+        std::abs(static_cast<double>(found.radiusSquared) - static_cast<double>(expected.radiusSquared)) / size;
     radius = std::max(radius, off);
     const double ring =
-        std::abs(static_cast<double>(found.ringWeight) - static_cast<double>(expected.ringWeight)) /
-        (1.0 + 2.0 * size);
+        std::abs(static_cast<double>(found.ringWeight) - static_cast<double>(expected.ringWeight)) / (1.0 + 2.0 * size);
     weight = std::max(weight, ring);
     ASSERT_LE(ulps(found.reach, expected.reach, 0.0f), 3.0) << i;
     ASSERT_TRUE(found.vignette == 0.0f || found.vignette == 1.0f) << i;
@@ -198,9 +194,8 @@ TEST_F(LensOnDevice, ApertureFunctionsGiveTheSameValuesAsInCpp) {
     EXPECT_NEAR(x * x + y * y, 1.000001, 1e-6) << i;
     ++edges;
   }
-  std::printf(
-      "aperture.h, %zu inputs: %.2g (radius²), %.2g (ring weight) relative, %d on the vignette's edge\n",
-      cases.size(), radius, weight, edges);
+  std::printf("aperture.h, %zu inputs: %.2g (radius²), %.2g (ring weight) relative, %d on the vignette's edge\n",
+              cases.size(), radius, weight, edges);
   EXPECT_LE(radius, 1.5e-5);
   EXPECT_LE(weight, 1.5e-5);
   EXPECT_GT(shut, 1000) << "the vignette would be idle";

@@ -77,8 +77,7 @@ double specularLobe(double nDotL, double nDotV, double nDotH, double roughness) 
   const double a2 = std::pow(roughness, 4.0);
   const double d = a2 / (kPi * std::pow(nDotH * nDotH * (a2 - 1.0) + 1.0, 2.0));
   return d * 0.5 /
-         (nDotL * std::sqrt(nDotV * nDotV * (1.0 - a2) + a2) +
-          nDotV * std::sqrt(nDotL * nDotL * (1.0 - a2) + a2));
+         (nDotL * std::sqrt(nDotV * nDotV * (1.0 - a2) + a2) + nDotV * std::sqrt(nDotL * nDotL * (1.0 - a2) + a2));
 }
 
 double fresnel(double f0, double vDotH) {
@@ -95,15 +94,14 @@ double directionalAlbedo(double f0, double nDotV, double roughness) {
   for (int i = 0; i < kSteps; ++i) {
     for (int j = 0; j < kSteps; ++j) {
       const double u = (i + 0.5) / kSteps, phi = 2.0 * kPi * (j + 0.5) / kSteps;
-      const double cosine = std::sqrt((1.0 - u) / (1.0 + (a2 - 1.0) * u)),
-                   sine = std::sqrt(1.0 - cosine * cosine);
+      const double cosine = std::sqrt((1.0 - u) / (1.0 + (a2 - 1.0) * u)), sine = std::sqrt(1.0 - cosine * cosine);
       const glm::dvec3 h(sine * std::cos(phi), sine * std::sin(phi), cosine);
       const double vDotH = glm::dot(v, h);
       const double nDotL = (2.0 * vDotH * h - v).z;
       if (nDotL <= 0.0 || vDotH <= 0.0) continue;
       // The density of l is D·nDotH / (4 vDotH).
-      const double lobeOverD = specularLobe(nDotL, nDotV, cosine, roughness) * kPi *
-                               std::pow(cosine * cosine * (a2 - 1.0) + 1.0, 2.0) / a2;
+      const double lobeOverD =
+          specularLobe(nDotL, nDotV, cosine, roughness) * kPi * std::pow(cosine * cosine * (a2 - 1.0) + 1.0, 2.0) / a2;
       sum += fresnel(f0, vDotH) * lobeOverD * nDotL * 4.0 * vDotH / cosine;
     }
   }
@@ -114,8 +112,7 @@ double directionalAlbedo(double f0, double nDotV, double roughness) {
 
 class Lit : public support::GpuTest {
  protected:
-  engine::FloatImage picture(const engine::Scene& scene,
-                             const std::optional<engine::Environment>& environment = {}) {
+  engine::FloatImage picture(const engine::Scene& scene, const std::optional<engine::Environment>& environment = {}) {
     EXPECT_THAT(engine::findProblems(scene), testing::IsEmpty());
     host::Renderer renderer(support::device(), scene, environment);
     auto shot = support::smallShot(kSide, kSide);
@@ -168,8 +165,7 @@ TEST_F(Lit, AWhiteDielectricVanishesInAWhiteFurnace) {
       most = std::max(most, value);
       ++pixels;
     });
-    std::printf("white dielectric, roughness %.1f: %.4f to %.4f of 1\n", static_cast<double>(roughness),
-                least, most);
+    std::printf("white dielectric, roughness %.1f: %.4f to %.4f of 1\n", static_cast<double>(roughness), least, most);
     EXPECT_GT(pixels, 100);
     EXPECT_GT(least, 0.99);
     EXPECT_LT(most, 1.01);
@@ -189,8 +185,8 @@ TEST_F(Lit, AWhiteMetalReflectsItsDirectionalAlbedoInAWhiteFurnace) {
       worst = std::max(worst, std::abs(value - expected));
       if (nDotV > 0.999) facing = value;
     });
-    std::printf("white metal, roughness %.1f: facing %.4f, largest error %.4f of 1\n",
-                static_cast<double>(roughness), facing, worst);
+    std::printf("white metal, roughness %.1f: facing %.4f, largest error %.4f of 1\n", static_cast<double>(roughness),
+                facing, worst);
     EXPECT_LT(worst, 0.06) << roughness;
     if (roughness < 0.2f) {
       EXPECT_GT(facing, 0.98);
@@ -204,8 +200,7 @@ TEST_F(Lit, AWhiteMetalReflectsItsDirectionalAlbedoInAWhiteFurnace) {
 TEST_F(Lit, ADirectionalLightOnAMatteWallIsLambert) {
   for (const double degrees : {0.0, 30.0, 60.0, 85.0}) {
     const double angle = degrees * kPi / 180.0;
-    const auto sun =
-        light(engine::LightType::directional, 1.0f, {}, {std::sin(angle), 0.0, -std::cos(angle)});
+    const auto sun = light(engine::LightType::directional, 1.0f, {}, {std::sin(angle), 0.0, -std::cos(angle)});
     // Fresnel's share stays on the surface: half vector between the axis and the light.
     const double below = 1.0 - fresnel(0.04, std::cos(0.5 * angle));
     const double expected = below * std::cos(angle) / kPi;
@@ -248,8 +243,7 @@ TEST_F(Lit, APointLightFallsOffWithTheSquareOfItsDistance) {
 TEST_F(Lit, ASpotLightHasItsConeEdges) {
   const auto tilted = [&](double degrees) {
     const double angle = degrees * kPi / 180.0;
-    auto spot =
-        light(engine::LightType::spot, 1.0f, {0.0, 0.0, -1.0}, {std::sin(angle), 0.0, -std::cos(angle)});
+    auto spot = light(engine::LightType::spot, 1.0f, {0.0, 0.0, -1.0}, {std::sin(angle), 0.0, -std::cos(angle)});
     spot.innerConeAngle = static_cast<float>(20.0 * kPi / 180.0);
     spot.outerConeAngle = static_cast<float>(40.0 * kPi / 180.0);
     return diffuse({spot});

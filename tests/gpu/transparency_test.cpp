@@ -11,7 +11,9 @@ using support::render;
 constexpr int kWidth = 64, kHeight = 36;
 constexpr float kTolerance = 1e-6f;
 
-glm::vec3 over(const glm::vec4& top, const glm::vec3& below) { return glm::vec3(top) * top.a + below * (1.0f - top.a); }
+glm::vec3 over(const glm::vec4& top, const glm::vec3& below) {
+  return glm::vec3(top) * top.a + below * (1.0f - top.a);
+}
 
 glm::vec3 pixelOf(const engine::FloatImage& picture, uint32_t x, uint32_t y) {
   const float* p = picture.pixel(x, y);
@@ -30,8 +32,10 @@ TEST_F(Transparency, IntersectingPanesChangeOrderWhereTheyCross) {
   engine::Scene scene;
   support::addFacingQuad(scene, 6.0, 0.0, 0.0, 9.0, 9.0, support::addMaterial(scene, {wall, 1.0f}));
   // Red comes nearer to the right, green to the left; they cross in the middle.
-  support::addQuad(scene, {glm::vec3(-3, -3, -5), {3, -3, -1}, {3, 3, -1}, {-3, 3, -5}}, support::addMaterial(scene, red));
-  support::addQuad(scene, {glm::vec3(-3, -3, -1), {3, -3, -5}, {3, 3, -5}, {-3, 3, -1}}, support::addMaterial(scene, green));
+  support::addQuad(scene, {glm::vec3(-3, -3, -5), {3, -3, -1}, {3, 3, -1}, {-3, 3, -5}},
+                   support::addMaterial(scene, red));
+  support::addQuad(scene, {glm::vec3(-3, -3, -1), {3, -3, -5}, {3, 3, -5}, {-3, 3, -1}},
+                   support::addMaterial(scene, green));
   host::Renderer renderer(support::device(), scene, std::nullopt);
   const auto picture = render(renderer, support::smallShot(kWidth, kHeight), "pinhole").color;
   support::keepPicture(picture, "crossing_panes");

@@ -37,8 +37,7 @@ std::size_t at(const ImageInput& input, uint32_t x, uint32_t y) {
 
 ImageInput uniform(VkExtent2D extent, Rgba color, float viewDepth, float cocScale) {
   const std::size_t count = std::size_t{extent.width} * extent.height;
-  return {extent, std::vector<Rgba>(count, color), std::vector<float>(count, depthBuffer(viewDepth)),
-          lens(cocScale)};
+  return {extent, std::vector<Rgba>(count, color), std::vector<float>(count, depthBuffer(viewDepth)), lens(cocScale)};
 }
 
 /// Rectangles at random depths in front of and behind focus, some in focus, over the sky; random colours, a
@@ -65,20 +64,17 @@ ImageInput randomRectangles(VkExtent2D extent, uint32_t seed, float cocScale) {
   return input;
 }
 
-std::vector<std::array<double, 3>> reference(const ImageInput& input,
-                                             const passes::ParameterSet& parameters = {}) {
+std::vector<std::array<double, 3>> reference(const ImageInput& input, const passes::ParameterSet& parameters = {}) {
   const auto number = [&](const char* name, double fallback) {
     const auto found = parameters.find(name);
     return found == parameters.end() ? fallback : std::get<double>(found->second);
   };
-  support::RgbzPicture picture{
-      static_cast<int>(input.extent.width), static_cast<int>(input.extent.height), {}, {}};
+  support::RgbzPicture picture{static_cast<int>(input.extent.width), static_cast<int>(input.extent.height), {}, {}};
   for (const auto& c : input.color) {
     picture.rgb.push_back({static_cast<double>(c[0]), static_cast<double>(c[1]), static_cast<double>(c[2])});
   }
   for (const float z : input.depth) {
-    picture.viewDepth.push_back(1.0 /
-                                (static_cast<double>(input.lens.vergenceScale) * static_cast<double>(z)));
+    picture.viewDepth.push_back(1.0 / (static_cast<double>(input.lens.vergenceScale) * static_cast<double>(z)));
   }
   return filterTwoPass(picture, {.pixelsPerTangent = static_cast<double>(input.lens.cocScale),
                                  .apertureRadius = 1.0,
@@ -126,8 +122,7 @@ TEST_F(TwoPassFilterGpu, EqualsTheReferenceForAllParameters) {
   const auto input = randomRectangles({97, 64}, 4, 60.0f);
   for (const passes::ParameterSet& parameters :
        {passes::ParameterSet{{"maxRadius", 5.5}}, passes::ParameterSet{{"minRadius", 2.0}},
-        passes::ParameterSet{{"leakage", 0.0}},
-        passes::ParameterSet{{"leakage", 0.05}, {"minRadius", 0.1}}}) {
+        passes::ParameterSet{{"leakage", 0.0}}, passes::ParameterSet{{"leakage", 0.05}, {"minRadius", 0.1}}}) {
     EXPECT_LT(largestError(run(input, parameters).color, reference(input, parameters)), 1e-4);
   }
 }
@@ -255,8 +250,7 @@ TEST_F(TwoPassFilterGpu, AFocusPullIsContinuous) {
     for (int i = 0; i <= steps; ++i) {
       input.lens.focusVergence = 0.2f + 0.6f * static_cast<float>(i) / static_cast<float>(steps);
       const auto color = run(input).color;
-      for (std::size_t p = 0; p < before.size(); ++p)
-        worst = std::max(worst, std::abs(color[p][1] - before[p][1]));
+      for (std::size_t p = 0; p < before.size(); ++p) worst = std::max(worst, std::abs(color[p][1] - before[p][1]));
       before = color;
     }
     return worst;

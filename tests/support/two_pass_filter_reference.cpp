@@ -44,8 +44,7 @@ std::vector<Rgb> filterAlong(const std::vector<Rgb>& input, int width, int heigh
       Rgb sum{};
       double weights = 0.0;
       for (int i = -reach; i <= reach; ++i) {
-        const int column = std::clamp(x + i * stepX, 0, width - 1),
-                  row = std::clamp(y + i * stepY, 0, height - 1);
+        const int column = std::clamp(x + i * stepX, 0, width - 1), row = std::clamp(y + i * stepY, 0, height - 1);
         const auto p = static_cast<std::size_t>(row * width + column);
         double weight = intensity(blur.radius[p]);
         if (i != 0) {

@@ -24,7 +24,6 @@ struct TwoPassFilterSettings {
 };
 
 /// Precondition: all values finite (depth may be infinite), depths > 0.
-std::vector<std::array<double, 3>> filterTwoPass(const RgbzPicture& picture,
-                                                 const TwoPassFilterSettings& settings);
+std::vector<std::array<double, 3>> filterTwoPass(const RgbzPicture& picture, const TwoPassFilterSettings& settings);
 
 }  // namespace support

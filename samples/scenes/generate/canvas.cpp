@@ -16,8 +16,7 @@ constexpr float kPenRadius = 0.46f;  // dots: strokes touch their neighbours wit
 float distanceToSegment(glm::vec2 point, glm::vec2 a, glm::vec2 b) {
   const glm::vec2 along = b - a;
   const float lengthSquared = glm::dot(along, along);
-  const float t =
-      lengthSquared > 0.0f ? glm::clamp(glm::dot(point - a, along) / lengthSquared, 0.0f, 1.0f) : 0.0f;
+  const float t = lengthSquared > 0.0f ? glm::clamp(glm::dot(point - a, along) / lengthSquared, 0.0f, 1.0f) : 0.0f;
   return glm::length(point - a - along * t);
 }
 
@@ -30,8 +29,7 @@ float distanceToLetter(const Glyph& glyph, glm::vec2 point) {
       if (!glyph.has(x, y)) continue;
       const glm::vec2 center(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
       nearest = std::min(nearest, glm::length(point - center));
-      for (const glm::ivec2 step :
-           {glm::ivec2(1, 0), glm::ivec2(0, 1), glm::ivec2(1, 1), glm::ivec2(-1, 1)}) {
+      for (const glm::ivec2 step : {glm::ivec2(1, 0), glm::ivec2(0, 1), glm::ivec2(1, 1), glm::ivec2(-1, 1)}) {
         if (!glyph.has(x + step.x, y + step.y)) continue;
         const bool diagonal = step.x != 0 && step.y != 0;
         if (diagonal && (glyph.has(x + step.x, y) || glyph.has(x, y + step.y))) continue;

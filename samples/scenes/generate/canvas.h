@@ -48,7 +48,6 @@ float tilingClouds(glm::vec2 point, int period, uint32_t seed, int octaves);
 /// PNG file in memory: RGB, or RGBA where alpha is asked for. Throws std::runtime_error.
 std::vector<uint8_t> encodePng(const Canvas& canvas, bool alpha);
 /// RGB half float EXR of linear radiance, row by row. Throws std::runtime_error.
-void writeExr(const std::filesystem::path& file, int width, int height,
-              const std::vector<glm::vec3>& radiance);
+void writeExr(const std::filesystem::path& file, int width, int height, const std::vector<glm::vec3>& radiance);
 
 }  // namespace scenes

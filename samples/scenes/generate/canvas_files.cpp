@@ -32,21 +32,20 @@ std::vector<uint8_t> encodePng(const Canvas& canvas, bool alpha) {
   spec.attribute("oiio:UnassociatedAlpha", 1);
   spec.attribute("png:compressionLevel", 9);
   const auto output = OIIO::ImageOutput::create("texture.png", &memory);
-  if (!output || !output->open("texture.png", spec) ||
-      !output->write_image(OIIO::TypeDesc::UINT8, bytes.data()) || !output->close()) {
+  if (!output || !output->open("texture.png", spec) || !output->write_image(OIIO::TypeDesc::UINT8, bytes.data()) ||
+      !output->close()) {
     throw std::runtime_error("PNG encoding failed: " + (output ? output->geterror() : OIIO::geterror()));
   }
   return file;
 }
 
-void writeExr(const std::filesystem::path& file, int width, int height,
-              const std::vector<glm::vec3>& radiance) {
+void writeExr(const std::filesystem::path& file, int width, int height, const std::vector<glm::vec3>& radiance) {
   OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::HALF);
   spec.attribute("compression", "zip");
   spec.attribute("DateTime", "1970:01:01 00:00:00");  // Otherwise the writer stamps the current time.
   const auto output = OIIO::ImageOutput::create(file.string());
-  if (!output || !output->open(file.string(), spec) ||
-      !output->write_image(OIIO::TypeDesc::FLOAT, radiance.data()) || !output->close()) {
+  if (!output || !output->open(file.string(), spec) || !output->write_image(OIIO::TypeDesc::FLOAT, radiance.data()) ||
+      !output->close()) {
     throw std::runtime_error(file.string() + ": " + (output ? output->geterror() : OIIO::geterror()));
   }
 }

@@ -27,22 +27,19 @@ void growBranch(Mesh& mesh, Random& random, const Branch& branch) {
   const float step = branch.length / kSegments;
   for (int i = 1; i <= kSegments; ++i) {
     const glm::vec3 bend = random.cube() * (branch.generation == 0 ? 0.07f : 0.16f);
-    direction =
-        glm::normalize(direction + bend + glm::vec3(0, 0.015f * static_cast<float>(branch.generation), 0));
+    direction = glm::normalize(direction + bend + glm::vec3(0, 0.015f * static_cast<float>(branch.generation), 0));
     const float taper = 1.0f - 0.72f * static_cast<float>(i) / kSegments;
-    path.push_back(
-        {path.back().position + direction * step, std::max(branch.radius * taper, 0.6f * kThinnest)});
+    path.push_back({path.back().position + direction * step, std::max(branch.radius * taper, 0.6f * kThinnest)});
     if (branch.generation >= 3 || i < 2 || (branch.generation > 0 && i % 2 == 0)) continue;
     const glm::vec3 side = glm::normalize(glm::cross(direction, random.cube()));
     const float lean = random.between(0.45f, 0.9f);
-    growBranch(mesh, random,
-               {path.back().position, glm::normalize(direction + side * lean),
-                branch.length * random.between(0.32f, 0.5f), std::max(path.back().radius * 0.6f, kThinnest),
-                branch.generation + 1});
+    growBranch(
+        mesh, random,
+        {path.back().position, glm::normalize(direction + side * lean), branch.length * random.between(0.32f, 0.5f),
+         std::max(path.back().radius * 0.6f, kThinnest), branch.generation + 1});
   }
   const float tone = random.between(0.8f, 1.2f);
-  const glm::vec3 bark =
-      branch.generation == 0 ? glm::vec3(0.30f, 0.21f, 0.15f) : glm::vec3(0.36f, 0.24f, 0.16f);
+  const glm::vec3 bark = branch.generation == 0 ? glm::vec3(0.30f, 0.21f, 0.15f) : glm::vec3(0.36f, 0.24f, 0.16f);
   append(mesh, colored(makeTube(path, branch.generation == 0  ? 10
                                       : branch.generation < 3 ? 5
                                                               : 4),
@@ -93,8 +90,7 @@ Canvas paintLandscape() {
     for (int ridge = 0; ridge < 4; ++ridge) {
       const auto depth = static_cast<float>(ridge);
       const float height =
-          0.42f + 0.13f * depth -
-          0.16f * tilingClouds({uv.x * (4.0f + 2.0f * depth), depth * 3.0f + 0.5f}, 32, 40u, 5);
+          0.42f + 0.13f * depth - 0.16f * tilingClouds({uv.x * (4.0f + 2.0f * depth), depth * 3.0f + 0.5f}, 32, 40u, 5);
       if (uv.y < height) continue;
       const float grain = tilingNoise(uv * (48.0f + 16.0f * depth), 256, 77u);
       color = glm::mix(glm::vec3(0.56f, 0.64f, 0.72f), glm::vec3(0.22f, 0.34f, 0.16f), depth / 3.0f);
@@ -122,8 +118,8 @@ Scene makeCrossingBranches() {
   addCrossedRods(branches);
   bakeLight(branches, {.sun = {1.0f, 0.95f, 0.8f}});
   scene.glb.add("branches", branches, scene.glb.addMaterial({.name = "bark"}), {.colors = true});
-  const int hills = scene.glb.addMaterial(
-      {.name = "hills", .texture = scene.glb.addTexture("hills", paintLandscape(), Wrap::clamp)});
+  const int hills =
+      scene.glb.addMaterial({.name = "hills", .texture = scene.glb.addTexture("hills", paintLandscape(), Wrap::clamp)});
   scene.glb.add("hills", makeRectangle({0, 0.1f, -8.0f}, {4.9f, 0, 0}, {0, 2.75f, 0}), hills, {.uvs = true});
 
   Shot shot;

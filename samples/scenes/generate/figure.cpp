@@ -25,8 +25,8 @@ void roundOff(QuadCage& cage) {
       p.x *= 0.86f;
       p.y -= 0.55f;
     } else if (p.y > 8.9f && p.z < 3.5f) {
-      const glm::vec3 ball = headCenter + glm::normalize((p - headCenter) * glm::vec3(0.9f, 1.1f, 1.1f)) *
-                                              glm::vec3(3.9f, 3.0f, 3.3f);
+      const glm::vec3 ball =
+          headCenter + glm::normalize((p - headCenter) * glm::vec3(0.9f, 1.1f, 1.1f)) * glm::vec3(3.9f, 3.0f, 3.3f);
       p = glm::mix(p, ball, kShare);
     } else if (p.y > 2.9f && p.y < 8.1f && std::abs(p.x) < 3.05f && p.z > -2.6f) {
       const float bulge = 2.75f - 0.09f * (p.y - 4.8f) * (p.y - 4.8f);
@@ -97,8 +97,7 @@ float frontAt(const Mesh& mesh, glm::vec2 at) {
     if (area <= 1e-12f) continue;
     const float s = (w.x * v.y - w.y * v.x) / area;
     const float t = (u.x * w.y - u.y * w.x) / area;
-    if (s >= 0.0f && t >= 0.0f && s + t <= 1.0f)
-      front = std::max(front, a.z + s * (b.z - a.z) + t * (c.z - a.z));
+    if (s >= 0.0f && t >= 0.0f && s + t <= 1.0f) front = std::max(front, a.z + s * (b.z - a.z) + t * (c.z - a.z));
   }
   return front;
 }
@@ -136,8 +135,7 @@ QuadCage makeScarf() {
     for (uint32_t j = 0; j < kSection; ++j) {
       const uint32_t nextI = (i + 1) % kAround;
       const uint32_t nextJ = (j + 1) % kSection;
-      cage.quads.push_back(
-          {i * kSection + j, nextI * kSection + j, nextI * kSection + nextJ, i * kSection + nextJ});
+      cage.quads.push_back({i * kSection + j, nextI * kSection + j, nextI * kSection + nextJ, i * kSection + nextJ});
     }
   }
   return cage;
@@ -181,16 +179,13 @@ void addRoom(Glb& glb) {
                                      .roughness = 0.9f});
   const Mesh wall = makeRectangle({0, 2.0f, -5.0f}, {4.5f, 0, 0}, {0, 2.0f, 0}, {2, 2});
   glb.add("wall", wall, paper, {.normals = true, .uvs = true});
-  glb.addLight({.name = "key", .type = "directional", .color = {1.0f, 0.93f, 0.82f}, .intensity = 2.4f},
-               {2, 3, 2}, {0, 0, -0.6f});
-  glb.addLight({.name = "lamp", .type = "point", .color = {1.0f, 0.7f, 0.4f}, .intensity = 1.6f},
-               {-1.4f, 1.3f, -1.6f}, {-1.4f, 0.0f, -1.6f});
-  glb.addLight({.name = "rim",
-                .type = "spot",
-                .color = {0.6f, 0.75f, 1.0f},
-                .intensity = 14.0f,
-                .outerConeAngle = 0.5f},
-               {1.6f, 2.2f, -2.8f}, {0, 0.4f, 0});
+  glb.addLight({.name = "key", .type = "directional", .color = {1.0f, 0.93f, 0.82f}, .intensity = 2.4f}, {2, 3, 2},
+               {0, 0, -0.6f});
+  glb.addLight({.name = "lamp", .type = "point", .color = {1.0f, 0.7f, 0.4f}, .intensity = 1.6f}, {-1.4f, 1.3f, -1.6f},
+               {-1.4f, 0.0f, -1.6f});
+  glb.addLight(
+      {.name = "rim", .type = "spot", .color = {0.6f, 0.75f, 1.0f}, .intensity = 14.0f, .outerConeAngle = 0.5f},
+      {1.6f, 2.2f, -2.8f}, {0, 0.4f, 0});
 }
 
 }  // namespace
@@ -202,14 +197,13 @@ Scene makeFigure() {
   Mesh bear = sculptBear().triangulated();
   for (Vertex& vertex : bear.vertices) vertex.color = furColor(vertex.position);
   const int fur = glb.addMaterial({.name = "plush", .unlit = false, .roughness = 0.85f});
-  const int gloss = glb.addMaterial(
-      {.name = "beads", .baseColor = {0.02f, 0.015f, 0.015f, 1}, .unlit = false, .roughness = 0.12f});
-  const int wool = glb.addMaterial(
-      {.name = "scarf", .baseColor = {0.65f, 0.06f, 0.05f, 1}, .unlit = false, .roughness = 0.8f});
+  const int gloss =
+      glb.addMaterial({.name = "beads", .baseColor = {0.02f, 0.015f, 0.015f, 1}, .unlit = false, .roughness = 0.12f});
+  const int wool =
+      glb.addMaterial({.name = "scarf", .baseColor = {0.65f, 0.06f, 0.05f, 1}, .unlit = false, .roughness = 0.8f});
   const int bearMesh = glb.addMesh("bear", bear, fur, {.normals = true, .colors = true}, QuadCage::extras());
   const int beadMesh = glb.addMesh("beads", makeBeads(bear), gloss, {.normals = true});
-  const int scarfMesh =
-      glb.addMesh("scarf", makeScarf().triangulated(), wool, {.normals = true}, QuadCage::extras());
+  const int scarfMesh = glb.addMesh("scarf", makeScarf().triangulated(), wool, {.normals = true}, QuadCage::extras());
   struct Stand {
     glm::vec3 at;
     float yaw;

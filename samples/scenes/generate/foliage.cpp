@@ -19,8 +19,7 @@ Canvas paintLeaf() {
     const float y = 1.0f - uv.y;  // 0 at the stalk, 1 at the tip
     const float blade = std::clamp((y - 0.08f) / 0.9f, 0.0f, 1.0f);
     const float serration = 0.035f * std::abs(std::fmod(blade * 13.0f, 1.0f) - 0.5f);
-    const float halfWidth =
-        0.98f * std::pow(std::sin(glm::pi<float>() * std::pow(blade, 0.72f)), 0.8f) - serration;
+    const float halfWidth = 0.98f * std::pow(std::sin(glm::pi<float>() * std::pow(blade, 0.72f)), 0.8f) - serration;
     const float stalk = y < 0.5f ? 0.035f : 0.0f;
     const float inside = std::max(halfWidth, stalk) - x;
     const float rib = std::abs(std::fmod(blade * 7.0f + x * 1.8f + 8.0f - 2.0f * x, 1.0f) - 0.5f);
@@ -50,8 +49,7 @@ void addLeaf(Mesh& leaves, Random& random, glm::vec3 at, glm::vec3 along, float 
   const float height = size * random.between(0.8f, 1.2f);
   const glm::vec3 center = at + up * (height * 0.5f);
   const float tone = random.between(0.75f, 1.25f);
-  const glm::vec3 color =
-      tint * tone * glm::vec3(random.between(0.85f, 1.2f), 1.0f, random.between(0.7f, 1.0f));
+  const glm::vec3 color = tint * tone * glm::vec3(random.between(0.85f, 1.2f), 1.0f, random.between(0.7f, 1.0f));
   append(leaves, colored(makeRectangle(center, right * (height * 0.25f), up * (height * 0.5f)),
                          glm::vec4(glm::clamp(color, 0.0f, 1.0f), 1.0f)));
 }
@@ -71,8 +69,7 @@ void addSprig(Mesh& leaves, Mesh& stems, Random& random, const Sprig& sprig) {
   for (int i = 0; i < sprig.leaves; ++i) {
     const float t = (static_cast<float>(i) + 0.8f) / static_cast<float>(sprig.leaves) * kSegments;
     const auto segment = static_cast<size_t>(std::min(static_cast<int>(t), kSegments - 1));
-    const glm::vec3 at =
-        glm::mix(path[segment].position, path[segment + 1].position, t - static_cast<float>(segment));
+    const glm::vec3 at = glm::mix(path[segment].position, path[segment + 1].position, t - static_cast<float>(segment));
     const glm::vec3 along = glm::normalize(path[segment + 1].position - path[segment].position);
     const glm::vec3 side = glm::normalize(glm::cross(along, glm::vec3(0.2f, 0.1f, 1.0f)));
     const glm::vec3 outward = along * 0.5f + side * (i % 2 == 0 ? 1.0f : -1.0f) + random.cube() * 0.3f;
@@ -94,8 +91,7 @@ void addShrub(Mesh& leaves, Mesh& stems, Random& random) {
   for (int i = 0; i < 15; ++i) {
     const float spread = static_cast<float>(i) / 14.0f * 2.0f - 1.0f;
     const glm::vec3 start(0.08f + spread * 0.28f, -0.95f, -2.5f + random.between(-0.16f, 0.16f));
-    const glm::vec3 direction(spread * 0.75f + random.between(-0.15f, 0.15f), 1.0f,
-                              random.between(-0.22f, 0.22f));
+    const glm::vec3 direction(spread * 0.75f + random.between(-0.15f, 0.15f), 1.0f, random.between(-0.22f, 0.22f));
     const glm::vec3 tint = i % 4 == 1 ? glm::vec3(0.95f, 0.42f, 0.22f) : glm::vec3(0.8f, 1.0f, 0.75f);
     addSprig(leaves, stems, random, {start, direction, random.between(1.15f, 1.75f), 0.16f, 18, tint});
   }
@@ -117,11 +113,8 @@ Scene makeFoliage() {
   Scene scene;
   Random random(440);
   const int leafTexture = scene.glb.addTexture("leaf", paintLeaf(), Wrap::clamp, true);
-  const int leaf = scene.glb.addMaterial({.name = "leaf",
-                                          .texture = leafTexture,
-                                          .alphaMode = AlphaMode::mask,
-                                          .alphaCutoff = 0.5f,
-                                          .doubleSided = true});
+  const int leaf = scene.glb.addMaterial(
+      {.name = "leaf", .texture = leafTexture, .alphaMode = AlphaMode::mask, .alphaCutoff = 0.5f, .doubleSided = true});
   const int stem = scene.glb.addMaterial({.name = "stem"});
   Mesh stems;
   const BakedLight sunThroughLeaves{.sun = {0.95f, 0.92f, 0.7f}, .twoSided = true};

@@ -28,14 +28,12 @@ std::vector<Stone> layOut() {
   for (int i = 0; i < 7; ++i) {  // in focus
     const float x = -1.05f + 0.35f * static_cast<float>(i);
     stones.push_back(
-        {{x, 0.12f * std::sin(static_cast<float>(i) * 1.9f), -2.5f + 0.1f * static_cast<float>(i % 3 - 1)},
-         0.15f});
+        {{x, 0.12f * std::sin(static_cast<float>(i) * 1.9f), -2.5f + 0.1f * static_cast<float>(i % 3 - 1)}, 0.15f});
   }
   for (int i = 0; i < 11; ++i) {  // far
     const float x = -3.1f + 0.62f * static_cast<float>(i);
-    stones.push_back({{x, -0.3f + 0.55f * static_cast<float>((i * 5) % 4) * 0.5f,
-                       -5.2f - 0.5f * static_cast<float>(i % 3)},
-                      0.3f});
+    stones.push_back(
+        {{x, -0.3f + 0.55f * static_cast<float>((i * 5) % 4) * 0.5f, -5.2f - 0.5f * static_cast<float>(i % 3)}, 0.3f});
   }
   return stones;
 }
@@ -119,8 +117,8 @@ Scene makeForegroundBlur(size_t triangles, const std::string& name) {
   stalks = colored(stalks, {0.16f, 0.14f, 0.12f, 1});
   bakeLight(stalks);
   scene.glb.add("stalks", stalks, stone, {.colors = true});
-  const int mural = scene.glb.addMaterial(
-      {.name = "mural", .texture = scene.glb.addTexture("mural", paintMural(), Wrap::clamp)});
+  const int mural =
+      scene.glb.addMaterial({.name = "mural", .texture = scene.glb.addTexture("mural", paintMural(), Wrap::clamp)});
   scene.glb.add("mural", makeRectangle({0, 0, -7.0f}, {4.75f, 0, 0}, {0, 2.67f, 0}), mural, {.uvs = true});
 
   Shot shot;

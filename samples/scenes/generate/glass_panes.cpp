@@ -45,8 +45,7 @@ Canvas paintWall() {
     }
   }
   canvas.fill({0, 112}, {512, 32}, {0.12f, 0.13f, 0.16f, 1.0f});
-  canvas.writeCentered("GLASS BEFORE GLASS BEHIND GLASS BEFORE A WALL", {256, 119}, 1.8f,
-                       {0.95f, 0.9f, 0.7f, 1});
+  canvas.writeCentered("GLASS BEFORE GLASS BEHIND GLASS BEFORE A WALL", {256, 119}, 1.8f, {0.95f, 0.9f, 0.7f, 1});
   return canvas;
 }
 
@@ -61,8 +60,7 @@ struct Pane {
 
 /// A pane in its own axes, with a frame of four rods.
 void addPane(Glb& glb, Mesh& frames, const Pane& pane, int stripes) {
-  const Mesh sheet =
-      makeRectangle({0, 0, 0}, {pane.halfSize.x, 0, 0}, {0, pane.halfSize.y, 0}, pane.halfSize * 6.0f);
+  const Mesh sheet = makeRectangle({0, 0, 0}, {pane.halfSize.x, 0, 0}, {0, pane.halfSize.y, 0}, pane.halfSize * 6.0f);
   const int material = glb.addMaterial({.name = pane.name,
                                         .baseColor = pane.color,
                                         .texture = pane.striped ? stripes : -1,
@@ -85,25 +83,10 @@ void addPanes(Glb& glb, Mesh& frames) {
   const int stripes = glb.addTexture("stripes", paintStripes(), Wrap::repeat, true);
   const std::array<Pane, 9> panes = {{
       {"near amber", {-0.44f, -0.05f, -1.05f}, {0.16f, 0.20f}, 0.25f, {0.95f, 0.45f, 0.05f, 0.55f}, false},
-      {"near blue stripes",
-       {-0.24f, 0.10f, -1.30f},
-       {0.17f, 0.17f},
-       -0.2f,
-       {0.08f, 0.25f, 0.85f, 1.0f},
-       true},
+      {"near blue stripes", {-0.24f, 0.10f, -1.30f}, {0.17f, 0.17f}, -0.2f, {0.08f, 0.25f, 0.85f, 1.0f}, true},
       {"near smoke", {0.50f, 0.12f, -1.15f}, {0.13f, 0.17f}, -0.3f, {0.05f, 0.05f, 0.06f, 0.4f}, false},
-      {"focus crossing red",
-       {0.02f, 0.02f, -kFocus},
-       {0.34f, 0.36f},
-       0.62f,
-       {0.9f, 0.06f, 0.08f, 0.6f},
-       false},
-      {"focus crossing green",
-       {0.02f, 0.02f, -kFocus},
-       {0.34f, 0.30f},
-       -0.62f,
-       {0.05f, 0.65f, 0.15f, 0.6f},
-       false},
+      {"focus crossing red", {0.02f, 0.02f, -kFocus}, {0.34f, 0.36f}, 0.62f, {0.9f, 0.06f, 0.08f, 0.6f}, false},
+      {"focus crossing green", {0.02f, 0.02f, -kFocus}, {0.34f, 0.30f}, -0.62f, {0.05f, 0.65f, 0.15f, 0.6f}, false},
       {"focus yellow", {0.86f, -0.12f, -kFocus}, {0.24f, 0.34f}, 0.0f, {0.95f, 0.85f, 0.1f, 0.3f}, false},
       {"far violet stripes", {-0.75f, 0.05f, -3.7f}, {0.42f, 0.5f}, 0.1f, {0.45f, 0.1f, 0.7f, 1.0f}, true},
       {"far cyan", {-0.40f, -0.05f, -4.3f}, {0.5f, 0.55f}, 0.1f, {0.05f, 0.6f, 0.7f, 0.5f}, false},
@@ -112,8 +95,7 @@ void addPanes(Glb& glb, Mesh& frames) {
   for (const Pane& pane : panes) addPane(glb, frames, pane, stripes);
   // A veil whose alpha runs from 0 at the top to 0.9 at the bottom, through all of the middle.
   Mesh veil = makeRectangle({0.95f, -0.33f, -1.7f}, {0.36f, 0, 0}, {0, 0.16f, 0});
-  for (Vertex& vertex : veil.vertices)
-    vertex.color = {0.9f, 0.92f, 0.95f, vertex.position.y > -0.3f ? 0.0f : 0.9f};
+  for (Vertex& vertex : veil.vertices) vertex.color = {0.9f, 0.92f, 0.95f, vertex.position.y > -0.3f ? 0.0f : 0.9f};
   const int material = glb.addMaterial({.name = "veil", .alphaMode = AlphaMode::blend, .doubleSided = true});
   glb.add("veil", veil, material, {.colors = true});
 }
@@ -123,16 +105,14 @@ Mesh opaqueContent() {
   for (int i = 0; i < 9; ++i) {
     const float x = -1.25f + 0.31f * static_cast<float>(i);
     const float z = i % 3 == 0 ? -2.52f : i % 3 == 1 ? -3.3f : -1.9f;
-    const std::array<TubePoint, 2> rod = {
-        TubePoint{{x, -0.62f, z}, 0.016f},
-        TubePoint{{x, 0.5f - 0.07f * static_cast<float>(i % 4), z}, 0.016f}};
+    const std::array<TubePoint, 2> rod = {TubePoint{{x, -0.62f, z}, 0.016f},
+                                          TubePoint{{x, 0.5f - 0.07f * static_cast<float>(i % 4), z}, 0.016f}};
     const glm::vec4 color = i % 2 == 0 ? glm::vec4(0.9f, 0.88f, 0.82f, 1) : glm::vec4(0.12f, 0.13f, 0.15f, 1);
     append(content, colored(makeTube(rod, 12), color));
   }
   const auto ball = [](glm::vec3 center, float radius, glm::vec4 color) {
-    return colored(transformed(makeSphere(14, 22),
-                               glm::scale(glm::translate(glm::mat4(1.0f), center), glm::vec3(radius))),
-                   color);
+    return colored(
+        transformed(makeSphere(14, 22), glm::scale(glm::translate(glm::mat4(1.0f), center), glm::vec3(radius))), color);
   };
   append(content, ball({-0.5f, -0.44f, -2.45f}, 0.18f, {0.9f, 0.9f, 0.88f, 1}));
   append(content, ball({0.42f, -0.40f, -3.2f}, 0.22f, {0.85f, 0.30f, 0.10f, 1}));
@@ -150,16 +130,15 @@ Scene makeGlassPanes() {
   scene.glb.add("rods, balls, frames", solid, scene.glb.addMaterial({.name = "solid"}), {.colors = true});
   const int checker = scene.glb.addMaterial(
       {.name = "checker", .texture = scene.glb.addTexture("checker", paintChecker(), Wrap::repeat)});
-  scene.glb.add("floor", makeRectangle({0, -0.62f, -3.25f}, {3.6f, 0, 0}, {0, 0, -2.45f}, {12.0f, 8.0f}),
-                checker, {.uvs = true});
-  const int wall = scene.glb.addMaterial(
-      {.name = "wall", .texture = scene.glb.addTexture("wall", paintWall(), Wrap::clamp)});
+  scene.glb.add("floor", makeRectangle({0, -0.62f, -3.25f}, {3.6f, 0, 0}, {0, 0, -2.45f}, {12.0f, 8.0f}), checker,
+                {.uvs = true});
+  const int wall =
+      scene.glb.addMaterial({.name = "wall", .texture = scene.glb.addTexture("wall", paintWall(), Wrap::clamp)});
   scene.glb.add("wall", makeRectangle({0, 1.08f, -5.7f}, {3.7f, 0, 0}, {0, 1.7f, 0}), wall, {.uvs = true});
 
   Shot shot;
   shot.name = "glass_panes";
-  shot.description =
-      "alpha-blended panes at 1.0-1.7, 2.5 (focus, two intersecting) and 3.7-4.3 m over opaque content";
+  shot.description = "alpha-blended panes at 1.0-1.7, 2.5 (focus, two intersecting) and 3.7-4.3 m over opaque content";
   shot.camera = {.position = {0, 0.1f, 0}, .target = {0, -0.03f, -kFocus}, .fovyDeg = 38.0f};
   shot.lens = {.apertureRadius = 0.045, .focusDistance = kFocus};
   shot.background = {0.1, 0.1, 0.12};

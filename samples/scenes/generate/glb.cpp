@@ -21,8 +21,7 @@ constexpr int kUnsignedInt = 5125;
 constexpr int kFloat = 5126;
 constexpr size_t kLargest16BitIndex = 65534;  // 65535 is primitive restart.
 
-static_assert(std::endian::native == std::endian::little,
-              "glTF is little-endian; bytes are written as they lie");
+static_assert(std::endian::native == std::endian::little, "glTF is little-endian; bytes are written as they lie");
 
 size_t push(Json& root, const char* array, Json value) {
   root[array].push_back(std::move(value));
@@ -82,8 +81,7 @@ size_t Glb::addColors(const Mesh& mesh) {
   std::vector<uint16_t> values;
   for (const Vertex& vertex : mesh.vertices) {
     for (int c = 0; c < 4; ++c) {
-      values.push_back(
-          static_cast<uint16_t>(std::lround(std::clamp(vertex.color[c], 0.0f, 1.0f) * 65535.0f)));
+      values.push_back(static_cast<uint16_t>(std::lround(std::clamp(vertex.color[c], 0.0f, 1.0f) * 65535.0f)));
     }
   }
   return push(root_, "accessors",
@@ -97,9 +95,8 @@ size_t Glb::addColors(const Mesh& mesh) {
 size_t Glb::addIndices(const Mesh& mesh) {
   const bool small = mesh.vertices.size() <= kLargest16BitIndex + 1;
   const std::vector<uint16_t> narrow(mesh.indices.begin(), mesh.indices.end());
-  const size_t view =
-      small ? addView(narrow.data(), narrow.size() * sizeof(uint16_t), kElementArrayBuffer)
-            : addView(mesh.indices.data(), mesh.indices.size() * sizeof(uint32_t), kElementArrayBuffer);
+  const size_t view = small ? addView(narrow.data(), narrow.size() * sizeof(uint16_t), kElementArrayBuffer)
+                            : addView(mesh.indices.data(), mesh.indices.size() * sizeof(uint32_t), kElementArrayBuffer);
   return push(root_, "accessors",
               {{"bufferView", view},
                {"componentType", small ? kUnsignedShort : kUnsignedInt},
@@ -115,8 +112,7 @@ void Glb::useExtension(const char* name) {
 int Glb::addTexture(const std::string& name, const Canvas& canvas, Wrap wrap, bool alpha) {
   const std::vector<uint8_t> png = encodePng(canvas, alpha);
   const size_t view = addView(png.data(), png.size(), 0);
-  const size_t image =
-      push(root_, "images", {{"name", name}, {"mimeType", "image/png"}, {"bufferView", view}});
+  const size_t image = push(root_, "images", {{"name", name}, {"mimeType", "image/png"}, {"bufferView", view}});
   const int mode = wrap == Wrap::repeat ? 10497 : 33071;  // REPEAT, CLAMP_TO_EDGE
   const Json sampler = {{"magFilter", 9729}, {"minFilter", 9987}, {"wrapS", mode}, {"wrapT", mode}};
   Json& samplers = root_["samplers"];
@@ -127,10 +123,10 @@ int Glb::addTexture(const std::string& name, const Canvas& canvas, Wrap wrap, bo
 }
 
 int Glb::addMaterial(const Material& material) {
-  Json surface = {{"baseColorFactor",
-                   {material.baseColor.r, material.baseColor.g, material.baseColor.b, material.baseColor.a}},
-                  {"metallicFactor", material.metallic},
-                  {"roughnessFactor", material.roughness}};
+  Json surface = {
+      {"baseColorFactor", {material.baseColor.r, material.baseColor.g, material.baseColor.b, material.baseColor.a}},
+      {"metallicFactor", material.metallic},
+      {"roughnessFactor", material.roughness}};
   if (material.texture >= 0) surface["baseColorTexture"] = {{"index", material.texture}};
   Json json = {{"name", material.name}, {"pbrMetallicRoughness", surface}};
   if (material.alphaMode == AlphaMode::blend) json["alphaMode"] = "BLEND";
@@ -144,8 +140,7 @@ int Glb::addMaterial(const Material& material) {
     if (material.emissiveTexture >= 0) json["emissiveTexture"] = {{"index", material.emissiveTexture}};
     if (material.emissiveStrength != 1.0f) {
       useExtension("KHR_materials_emissive_strength");
-      json["extensions"]["KHR_materials_emissive_strength"] = {
-          {"emissiveStrength", material.emissiveStrength}};
+      json["extensions"]["KHR_materials_emissive_strength"] = {{"emissiveStrength", material.emissiveStrength}};
     }
   }
   if (material.unlit) {
@@ -155,8 +150,7 @@ int Glb::addMaterial(const Material& material) {
   return static_cast<int>(push(root_, "materials", std::move(json)));
 }
 
-int Glb::addMesh(const std::string& name, const Mesh& mesh, int material, Attributes attributes,
-                 const Json& extras) {
+int Glb::addMesh(const std::string& name, const Mesh& mesh, int material, Attributes attributes, const Json& extras) {
   std::vector<float> positions;
   std::vector<float> normals;
   std::vector<float> uvs;
@@ -207,11 +201,10 @@ void Glb::add(const std::string& name, const Mesh& mesh, int material, Attribute
 }
 
 void Glb::addCamera(const std::string& name, float yfov, glm::vec3 position, glm::vec3 target) {
-  const size_t camera =
-      push(root_, "cameras",
-           {{"name", name},
-            {"type", "perspective"},
-            {"perspective", {{"aspectRatio", 16.0 / 9.0}, {"yfov", yfov}, {"znear", 0.01}}}});
+  const size_t camera = push(root_, "cameras",
+                             {{"name", name},
+                              {"type", "perspective"},
+                              {"perspective", {{"aspectRatio", 16.0 / 9.0}, {"yfov", yfov}, {"znear", 0.01}}}});
   addRootNode({{"name", name},
                {"translation", toJson(position)},
                {"rotation", toJson(lookingAlong(target - position))},
@@ -220,10 +213,8 @@ void Glb::addCamera(const std::string& name, float yfov, glm::vec3 position, glm
 
 void Glb::addLight(const LightSource& light, glm::vec3 position, glm::vec3 target) {
   useExtension("KHR_lights_punctual");
-  Json json = {{"name", light.name},
-               {"type", light.type},
-               {"color", toJson(light.color)},
-               {"intensity", light.intensity}};
+  Json json = {
+      {"name", light.name}, {"type", light.type}, {"color", toJson(light.color)}, {"intensity", light.intensity}};
   if (light.type == "spot") json["spot"] = {{"outerConeAngle", light.outerConeAngle}};
   const size_t index = push(root_["extensions"]["KHR_lights_punctual"], "lights", std::move(json));
   addRootNode({{"name", light.name},

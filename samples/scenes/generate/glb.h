@@ -87,10 +87,9 @@ class Glb {
   void useExtension(const char* name);
   size_t addRootNode(Json node);
 
-  Json root_ = {
-      {"asset", {{"version", "2.0"}, {"generator", "lensgraph generate_scenes"}, {"copyright", "MIT"}}},
-      {"scene", 0},
-      {"scenes", Json::array({{{"nodes", Json::array()}}})}};
+  Json root_ = {{"asset", {{"version", "2.0"}, {"generator", "lensgraph generate_scenes"}, {"copyright", "MIT"}}},
+                {"scene", 0},
+                {"scenes", Json::array({{{"nodes", Json::array()}}})}};
   std::vector<uint8_t> binary_;
   std::vector<std::vector<Triangle>> meshTriangles_;
   std::vector<Triangle> worldTriangles_;

@@ -51,8 +51,7 @@ void writeAll(const std::filesystem::path& folder) {
   write(scenes::makeStreetLights(), folder, "street_lights.glb");
   write(scenes::makeFigure(), folder, "figure.glb");
   write(scenes::makeReflective(), folder, "reflective.glb");
-  write(scenes::makeForegroundBlur(kForegroundBlurTriangles, "foreground_blur"), folder,
-        "foreground_blur.glb");
+  write(scenes::makeForegroundBlur(kForegroundBlurTriangles, "foreground_blur"), folder, "foreground_blur.glb");
   scenes::writeStudioEnvironment(folder / "studio.exr");
 }
 

@@ -61,8 +61,7 @@ void addLid(Mesh& mesh, const TubePoint& end, glm::vec3 outward, glm::vec3 side,
 
 }  // namespace
 
-Mesh makeRectangle(glm::vec3 center, glm::vec3 halfU, glm::vec3 halfV, glm::vec2 uvScale,
-                   glm::ivec2 divisions) {
+Mesh makeRectangle(glm::vec3 center, glm::vec3 halfU, glm::vec3 halfV, glm::vec2 uvScale, glm::ivec2 divisions) {
   Mesh mesh;
   const glm::vec3 normal = glm::normalize(glm::cross(halfU, halfV));
   for (int row = 0; row <= divisions.y; ++row) {
@@ -70,8 +69,7 @@ Mesh makeRectangle(glm::vec3 center, glm::vec3 halfU, glm::vec3 halfV, glm::vec2
       const glm::vec2 t(static_cast<float>(column) / static_cast<float>(divisions.x),
                         static_cast<float>(row) / static_cast<float>(divisions.y));
       const glm::vec3 position = center + halfU * (2.0f * t.x - 1.0f) + halfV * (2.0f * t.y - 1.0f);
-      mesh.vertices.push_back(
-          {position, normal, {t.x * uvScale.x, (1.0f - t.y) * uvScale.y}, glm::vec4(1.0f)});
+      mesh.vertices.push_back({position, normal, {t.x * uvScale.x, (1.0f - t.y) * uvScale.y}, glm::vec4(1.0f)});
     }
   }
   addGridIndices(mesh, 0, divisions.x, divisions.y);
@@ -115,8 +113,7 @@ Mesh makeTorus(float majorRadius, float minorRadius, int majorSegments, int mino
       const float v = static_cast<float>(minor % minorSegments) / static_cast<float>(minorSegments);
       const float angle = v * glm::two_pi<float>();
       const glm::vec3 normal = outward * std::cos(angle) - glm::vec3(0, 0, 1) * std::sin(angle);
-      mesh.vertices.push_back(
-          {outward * majorRadius + normal * minorRadius, normal, {u, v}, glm::vec4(1.0f)});
+      mesh.vertices.push_back({outward * majorRadius + normal * minorRadius, normal, {u, v}, glm::vec4(1.0f)});
     }
   }
   addGridIndices(mesh, 0, minorSegments, majorSegments);
@@ -161,14 +158,12 @@ Mesh makeLathe(std::span<const glm::vec2> profile, int sectors) {
     const glm::vec2 along = profile[i == last ? i : i + 1] - profile[i == 0 ? 0 : i - 1];
     const glm::vec2 outward = glm::normalize(glm::vec2(along.y, -along.x));
     for (int j = 0; j <= sectors; ++j) {
-      const float angle =
-          glm::two_pi<float>() * static_cast<float>(j % sectors) / static_cast<float>(sectors);
+      const float angle = glm::two_pi<float>() * static_cast<float>(j % sectors) / static_cast<float>(sectors);
       const glm::vec3 radial(std::sin(angle), 0.0f, std::cos(angle));
       const glm::vec2 uv(static_cast<float>(j) / static_cast<float>(sectors),
                          1.0f - static_cast<float>(i) / static_cast<float>(last));
       mesh.vertices.push_back({radial * profile[i].x + glm::vec3(0, profile[i].y, 0),
-                               glm::normalize(radial * outward.x + glm::vec3(0, outward.y, 0)), uv,
-                               glm::vec4(1.0f)});
+                               glm::normalize(radial * outward.x + glm::vec3(0, outward.y, 0)), uv, glm::vec4(1.0f)});
     }
   }
   addGridIndices(mesh, 0, sectors, static_cast<int>(last));

@@ -88,8 +88,7 @@ void QuadCage::relax(float share, int rounds) {
       counts[a] += 1.0f;
       counts[b] += 1.0f;
     }
-    for (size_t i = 0; i < positions.size(); ++i)
-      positions[i] += share * (sums[i] / counts[i] - positions[i]);
+    for (size_t i = 0; i < positions.size(); ++i) positions[i] += share * (sums[i] / counts[i] - positions[i]);
   }
 }
 

@@ -61,8 +61,7 @@ Canvas paintPoster() {
   }
   for (int i = 0; i < 96; ++i) {  // A resolution wedge: bars of 1 to 6 px.
     const int width = 1 + i / 16;
-    canvas.fill({40 + (i % 16) * width * 2 + (width - 1) * width * 16 + (width - 1) * 50, 726}, {width, 40},
-                ink);
+    canvas.fill({40 + (i % 16) * width * 2 + (width - 1) * width * 16 + (width - 1) * 50, 726}, {width, 40}, ink);
   }
   return canvas;
 }
@@ -71,8 +70,7 @@ Mesh balustrade(Mesh& knobs) {
   Mesh iron;
   for (int i = -9; i <= 9; ++i) {
     const float x = static_cast<float>(i) * 0.095f;
-    const std::array<TubePoint, 2> bar = {TubePoint{{x, -0.42f, 0.0f}, 0.0065f},
-                                          TubePoint{{x, 0.15f, 0.0f}, 0.0065f}};
+    const std::array<TubePoint, 2> bar = {TubePoint{{x, -0.42f, 0.0f}, 0.0065f}, TubePoint{{x, 0.15f, 0.0f}, 0.0065f}};
     append(iron, makeTube(bar, 10));
     const glm::mat4 place = glm::translate(glm::mat4(1.0f), {x, i % 2 == 0 ? -0.02f : 0.06f, 0.0f});
     append(knobs, transformed(makeSphere(8, 14), glm::scale(place, glm::vec3(0.0125f, 0.017f, 0.0125f))));
@@ -102,24 +100,20 @@ void addSurroundings(Glb& glb) {
   for (int row = 0; row < 5; ++row) {
     for (int column = -5; column < 5; ++column) {
       const float shade = 0.32f + 0.10f * static_cast<float>((row * 7 + column * column * 3) % 4);
-      const glm::vec3 center(0.5f + static_cast<float>(column) * 0.9f, 0.06f,
-                             -3.6f + static_cast<float>(row) * 0.9f);
-      append(ground,
-             colored(makeRectangle(center, {0.44f, 0, 0}, {0, 0, -0.44f}), {shade, shade, shade * 0.95f, 1}));
+      const glm::vec3 center(0.5f + static_cast<float>(column) * 0.9f, 0.06f, -3.6f + static_cast<float>(row) * 0.9f);
+      append(ground, colored(makeRectangle(center, {0.44f, 0, 0}, {0, 0, -0.44f}), {shade, shade, shade * 0.95f, 1}));
     }
   }
-  append(ground,
-         colored(makeRectangle({0, 0.05f, -1.8f}, {4.6f, 0, 0}, {0, 0, -2.25f}), {0.10f, 0.10f, 0.10f, 1}));
-  const std::array<glm::vec2, 8> pot = {glm::vec2(0.0f, 0.0f), {0.16f, 0.0f},  {0.19f, 0.10f},
-                                        {0.25f, 0.38f},        {0.28f, 0.40f}, {0.28f, 0.46f},
-                                        {0.22f, 0.46f},        {0.20f, 0.34f}};
+  append(ground, colored(makeRectangle({0, 0.05f, -1.8f}, {4.6f, 0, 0}, {0, 0, -2.25f}), {0.10f, 0.10f, 0.10f, 1}));
+  const std::array<glm::vec2, 8> pot = {glm::vec2(0.0f, 0.0f), {0.16f, 0.0f},  {0.19f, 0.10f}, {0.25f, 0.38f},
+                                        {0.28f, 0.40f},        {0.28f, 0.46f}, {0.22f, 0.46f}, {0.20f, 0.34f}};
   const std::array<glm::vec3, 2> places = {glm::vec3(-1.45f, 0.06f, -3.1f), glm::vec3(1.15f, 0.06f, -2.5f)};
   for (const glm::vec3 place : places) {
     const glm::mat4 matrix = glm::translate(glm::mat4(1.0f), place);
     Mesh planter = colored(transformed(makeLathe(pot, 28), matrix), {0.75f, 0.35f, 0.18f, 1});
-    append(planter, colored(transformed(makeSphere(12, 18),
-                                        glm::scale(glm::translate(matrix, {0, 0.56f, 0}), glm::vec3(0.26f))),
-                            {0.16f, 0.42f, 0.12f, 1}));
+    append(planter,
+           colored(transformed(makeSphere(12, 18), glm::scale(glm::translate(matrix, {0, 0.56f, 0}), glm::vec3(0.26f))),
+                   {0.16f, 0.42f, 0.12f, 1}));
     bakeLight(planter);
     append(ground, planter);
   }

@@ -17,31 +17,25 @@ const glm::vec3 kCopper(0.95f, 0.64f, 0.54f);
 const glm::vec3 kSilver(0.95f, 0.94f, 0.92f);
 
 int addSurface(Glb& glb, const std::string& name, glm::vec3 color, float metallic, float roughness) {
-  return glb.addMaterial({.name = name,
-                          .baseColor = glm::vec4(color, 1),
-                          .unlit = false,
-                          .metallic = metallic,
-                          .roughness = roughness});
+  return glb.addMaterial(
+      {.name = name, .baseColor = glm::vec4(color, 1), .unlit = false, .metallic = metallic, .roughness = roughness});
 }
 
 /// Body and lid turned on a lathe, spout and handle as tubes. About 0.36 m wide, standing on y = 0.
 Mesh makeTeapot() {
   const std::array<glm::vec2, 22> profile = {
-      glm::vec2(0.0f, 0.0f), {0.075f, 0.0f},   {0.080f, 0.006f}, {0.079f, 0.012f}, {0.098f, 0.035f},
-      {0.116f, 0.062f},      {0.124f, 0.090f}, {0.122f, 0.116f}, {0.110f, 0.140f}, {0.094f, 0.157f},
-      {0.083f, 0.164f},      {0.083f, 0.170f}, {0.078f, 0.174f}, {0.055f, 0.184f}, {0.030f, 0.191f},
-      {0.015f, 0.195f},      {0.012f, 0.203f}, {0.019f, 0.212f}, {0.021f, 0.221f}, {0.016f, 0.229f},
-      {0.008f, 0.233f},      {0.0f, 0.234f}};
+      glm::vec2(0.0f, 0.0f), {0.075f, 0.0f},   {0.080f, 0.006f}, {0.079f, 0.012f}, {0.098f, 0.035f}, {0.116f, 0.062f},
+      {0.124f, 0.090f},      {0.122f, 0.116f}, {0.110f, 0.140f}, {0.094f, 0.157f}, {0.083f, 0.164f}, {0.083f, 0.170f},
+      {0.078f, 0.174f},      {0.055f, 0.184f}, {0.030f, 0.191f}, {0.015f, 0.195f}, {0.012f, 0.203f}, {0.019f, 0.212f},
+      {0.021f, 0.221f},      {0.016f, 0.229f}, {0.008f, 0.233f}, {0.0f, 0.234f}};
   Mesh pot = makeLathe(profile, 40);
   std::vector<TubePoint> spout;
   std::vector<TubePoint> handle;
   for (int i = 0; i <= 12; ++i) {
     const float t = static_cast<float>(i) / 12.0f;
-    spout.push_back(
-        {{0.10f + 0.11f * t, 0.055f + 0.115f * t + 0.02f * std::sin(t * 5.0f), 0.0f}, 0.026f - 0.014f * t});
+    spout.push_back({{0.10f + 0.11f * t, 0.055f + 0.115f * t + 0.02f * std::sin(t * 5.0f), 0.0f}, 0.026f - 0.014f * t});
     const float angle = glm::pi<float>() * (0.42f + 1.13f * t);
-    handle.push_back(
-        {{-0.118f + 0.078f * std::cos(angle), 0.098f + 0.058f * std::sin(angle), 0.0f}, 0.0095f});
+    handle.push_back({{-0.118f + 0.078f * std::cos(angle), 0.098f + 0.058f * std::sin(angle), 0.0f}, 0.0095f});
   }
   append(pot, makeTube(spout, 16));
   append(pot, makeTube(handle, 12));
@@ -49,10 +43,10 @@ Mesh makeTeapot() {
 }
 
 Mesh makeGoblet() {
-  const std::array<glm::vec2, 15> profile = {
-      glm::vec2(0.0f, 0.0f), {0.06f, 0.0f},    {0.06f, 0.006f}, {0.02f, 0.018f}, {0.011f, 0.04f},
-      {0.010f, 0.10f},       {0.016f, 0.118f}, {0.045f, 0.14f}, {0.066f, 0.18f}, {0.070f, 0.22f},
-      {0.064f, 0.26f},       {0.060f, 0.26f},  {0.066f, 0.22f}, {0.058f, 0.17f}, {0.0f, 0.145f}};
+  const std::array<glm::vec2, 15> profile = {glm::vec2(0.0f, 0.0f), {0.06f, 0.0f},   {0.06f, 0.006f},  {0.02f, 0.018f},
+                                             {0.011f, 0.04f},       {0.010f, 0.10f}, {0.016f, 0.118f}, {0.045f, 0.14f},
+                                             {0.066f, 0.18f},       {0.070f, 0.22f}, {0.064f, 0.26f},  {0.060f, 0.26f},
+                                             {0.066f, 0.22f},       {0.058f, 0.17f}, {0.0f, 0.145f}};
   return makeLathe(profile, 36);
 }
 
@@ -117,8 +111,7 @@ glm::vec3 lamp(glm::vec3 direction, glm::vec3 towards, glm::vec2 halfSize, glm::
   const glm::vec3 up = glm::cross(towards, right);
   const float ahead = glm::dot(direction, towards);
   if (ahead <= 0.0f) return glm::vec3(0.0f);
-  const glm::vec2 at =
-      glm::abs(glm::vec2(glm::dot(direction, right), glm::dot(direction, up)) / ahead) - halfSize;
+  const glm::vec2 at = glm::abs(glm::vec2(glm::dot(direction, right), glm::dot(direction, up)) / ahead) - halfSize;
   constexpr float kEdge = 0.03f;  // About half a texel.
   return radiance * glm::clamp(0.5f - at.x / kEdge, 0.0f, 1.0f) * glm::clamp(0.5f - at.y / kEdge, 0.0f, 1.0f);
 }
@@ -126,21 +119,16 @@ glm::vec3 lamp(glm::vec3 direction, glm::vec3 towards, glm::vec2 halfSize, glm::
 glm::vec3 studioRadiance(glm::vec3 direction) {
   const float upward = direction.y;
   glm::vec3 radiance =
-      upward > 0.0f
-          ? glm::mix(glm::vec3(0.42f, 0.38f, 0.36f), glm::vec3(0.06f, 0.08f, 0.14f), std::sqrt(upward))
-          : glm::mix(glm::vec3(0.30f, 0.24f, 0.18f), glm::vec3(0.05f, 0.04f, 0.03f), std::sqrt(-upward));
-  radiance += lamp(direction, {-0.8f, 0.75f, 0.9f}, {0.30f, 0.22f}, glm::vec3(9.0f, 8.6f, 8.0f));  // soft box
-  radiance +=
-      lamp(direction, {1.0f, 0.45f, 0.25f}, {0.07f, 0.45f}, glm::vec3(5.0f, 6.5f, 9.0f));  // cool strip
-  radiance +=
-      lamp(direction, {0.5f, 1.0f, 0.55f}, {0.05f, 0.05f}, glm::vec3(180.0f, 160.0f, 130.0f));  // spot
-  radiance +=
-      lamp(direction, {-0.35f, 0.5f, -1.0f}, {0.38f, 0.09f}, glm::vec3(4.0f, 2.2f, 1.0f));  // warm strip
-  for (int i = 0; i < 12; ++i) {                                                            // row of bulbs
+      upward > 0.0f ? glm::mix(glm::vec3(0.42f, 0.38f, 0.36f), glm::vec3(0.06f, 0.08f, 0.14f), std::sqrt(upward))
+                    : glm::mix(glm::vec3(0.30f, 0.24f, 0.18f), glm::vec3(0.05f, 0.04f, 0.03f), std::sqrt(-upward));
+  radiance += lamp(direction, {-0.8f, 0.75f, 0.9f}, {0.30f, 0.22f}, glm::vec3(9.0f, 8.6f, 8.0f));       // soft box
+  radiance += lamp(direction, {1.0f, 0.45f, 0.25f}, {0.07f, 0.45f}, glm::vec3(5.0f, 6.5f, 9.0f));       // cool strip
+  radiance += lamp(direction, {0.5f, 1.0f, 0.55f}, {0.05f, 0.05f}, glm::vec3(180.0f, 160.0f, 130.0f));  // spot
+  radiance += lamp(direction, {-0.35f, 0.5f, -1.0f}, {0.38f, 0.09f}, glm::vec3(4.0f, 2.2f, 1.0f));      // warm strip
+  for (int i = 0; i < 12; ++i) {                                                                        // row of bulbs
     const float angle = glm::two_pi<float>() * (static_cast<float>(i) + 0.5f) / 12.0f;
     const glm::vec3 towards(std::sin(angle), 0.22f, std::cos(angle));
-    radiance +=
-        lamp(direction, towards, {0.035f, 0.035f}, i % 2 == 0 ? glm::vec3(28, 18, 9) : glm::vec3(9, 16, 28));
+    radiance += lamp(direction, towards, {0.035f, 0.035f}, i % 2 == 0 ? glm::vec3(28, 18, 9) : glm::vec3(9, 16, 28));
   }
   return radiance;
 }
@@ -156,8 +144,7 @@ void writeStudioEnvironment(const std::filesystem::path& file) {
       const float longitude = ((static_cast<float>(x) + 0.5f) / kWidth - 0.5f) * glm::two_pi<float>();
       const float polar = (static_cast<float>(y) + 0.5f) / kHeight * glm::pi<float>();
       const float ring = std::sin(polar);
-      radiance.push_back(
-          studioRadiance({ring * std::sin(longitude), std::cos(polar), -ring * std::cos(longitude)}));
+      radiance.push_back(studioRadiance({ring * std::sin(longitude), std::cos(polar), -ring * std::cos(longitude)}));
     }
   }
   writeExr(file, kWidth, kHeight, radiance);
@@ -169,8 +156,7 @@ Scene makeReflective() {
   addObjects(scene.glb);
   Shot shot;
   shot.name = "reflective";
-  shot.description =
-      "glossy metal and glazed shapes at 1.0-5 m under a studio environment, focus on the teapot";
+  shot.description = "glossy metal and glazed shapes at 1.0-5 m under a studio environment, focus on the teapot";
   shot.camera = {.position = {0.0f, 0.55f, 1.95f}, .target = {0.0f, 0.20f, 0.0f}, .fovyDeg = 36.0f};
   shot.lens = {.apertureRadius = 0.05, .focusDistance = 1.92};
   shot.background = {0.10, 0.10, 0.12};

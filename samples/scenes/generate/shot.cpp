@@ -67,14 +67,12 @@ Extent measure(const Shot& shot, const Glb& scene) {
   }
   const double cocScale = kHeight / (2.0 * static_cast<double>(tangentY)) * shot.lens.radius();
   const double focusVergence = 1.0 / shot.lens.focusDistance;
-  return {nearest, farthest, cocScale * (focusVergence - 1.0 / nearest),
-          cocScale * (focusVergence - 1.0 / farthest), cocScale * focusVergence};
+  return {nearest, farthest, cocScale * (focusVergence - 1.0 / nearest), cocScale * (focusVergence - 1.0 / farthest),
+          cocScale * focusVergence};
 }
 
 void writeShot(const std::filesystem::path& file, const Shot& shot, const std::string& sceneFile) {
-  Json json = {{"name", shot.name},
-               {"description", shot.description},
-               {"scene", Json::array({{{"path", sceneFile}}})}};
+  Json json = {{"name", shot.name}, {"description", shot.description}, {"scene", Json::array({{{"path", sceneFile}}})}};
   if (shot.camera.gltfName.empty()) {
     json["camera"] = {{"position", toJson(shot.camera.position)},
                       {"target", toJson(shot.camera.target)},

@@ -50,14 +50,13 @@ Canvas paintSign() {
 
 void addStreet(Glb& glb) {
   const Facades facades = paintFacades();
-  const int front =
-      glb.addMaterial({.name = "facade",
-                       .baseColor = {0.35f, 0.35f, 0.4f, 1},
-                       .texture = glb.addTexture("facade", facades.walls, Wrap::repeat),
-                       .unlit = false,
-                       .emissive = {1.0f, 0.8f, 0.5f},
-                       .emissiveStrength = 3.0f,
-                       .emissiveTexture = glb.addTexture("windows", facades.windows, Wrap::repeat)});
+  const int front = glb.addMaterial({.name = "facade",
+                                     .baseColor = {0.35f, 0.35f, 0.4f, 1},
+                                     .texture = glb.addTexture("facade", facades.walls, Wrap::repeat),
+                                     .unlit = false,
+                                     .emissive = {1.0f, 0.8f, 0.5f},
+                                     .emissiveStrength = 3.0f,
+                                     .emissiveTexture = glb.addTexture("windows", facades.windows, Wrap::repeat)});
   Mesh houses;
   Random random(12);
   for (int i = 0; i < 6; ++i) {
@@ -72,14 +71,13 @@ void addStreet(Glb& glb) {
   glb.add("houses", houses, front, {.normals = true, .uvs = true});
 
   // Wet asphalt with pools of lamp light, painted into a grid of vertices.
-  Mesh road =
-      makeRectangle({0, 0, -26.0f}, {kStreetHalfWidth + 1.8f, 0, 0}, {0, 0, -26.0f}, glm::vec2(1), {24, 130});
+  Mesh road = makeRectangle({0, 0, -26.0f}, {kStreetHalfWidth + 1.8f, 0, 0}, {0, 0, -26.0f}, glm::vec2(1), {24, 130});
   for (Vertex& vertex : road.vertices) {
     const float x = std::abs(vertex.position.x) - 4.3f;
     const float z = std::fmod(-vertex.position.z + 1.5f, 5.0f) - 2.5f;
     const float pool = std::exp(-(x * x + z * z) * 0.45f);
-    const float streak = 0.25f * std::exp(-x * x * 0.1f) *
-                         tilingNoise({vertex.position.x * 2.0f, vertex.position.z * 0.3f}, 64, 9);
+    const float streak =
+        0.25f * std::exp(-x * x * 0.1f) * tilingNoise({vertex.position.x * 2.0f, vertex.position.z * 0.3f}, 64, 9);
     const bool kerb = std::abs(vertex.position.x) > kStreetHalfWidth;
     vertex.color = glm::vec4(glm::vec3(0.012f, 0.013f, 0.018f) * (kerb ? 1.8f : 1.0f) +
                                  glm::vec3(0.16f, 0.10f, 0.045f) * (pool + 0.2f * streak),
@@ -95,11 +93,8 @@ class Bulbs {
   explicit Bulbs(Glb& glb) : glb_(glb), ball_(makeSphere(7, 12)) {}
 
   int kind(const std::string& name, glm::vec3 color, float strength) {
-    const int material = glb_.addMaterial({.name = name,
-                                           .baseColor = {0, 0, 0, 1},
-                                           .unlit = false,
-                                           .emissive = color,
-                                           .emissiveStrength = strength});
+    const int material = glb_.addMaterial(
+        {.name = name, .baseColor = {0, 0, 0, 1}, .unlit = false, .emissive = color, .emissiveStrength = strength});
     return glb_.addMesh(name, ball_, material, {.normals = true});
   }
   void place(const std::string& name, int kind, glm::vec3 center, float radius) {
@@ -156,18 +151,16 @@ void addTraffic(Bulbs& bulbs, Mesh& metal) {
 
 /// A cord with coloured bulbs that hangs close to the lens.
 void addString(Bulbs& bulbs, Mesh& metal) {
-  const std::array<int, 4> kinds = {bulbs.kind("warm bulb", {1.0f, 0.7f, 0.3f}, 40.0f),
-                                    bulbs.kind("rose bulb", {1.0f, 0.15f, 0.35f}, 50.0f),
-                                    bulbs.kind("blue bulb", {0.15f, 0.4f, 1.0f}, 50.0f),
-                                    bulbs.kind("mint bulb", {0.2f, 1.0f, 0.6f}, 40.0f)};
+  const std::array<int, 4> kinds = {
+      bulbs.kind("warm bulb", {1.0f, 0.7f, 0.3f}, 40.0f), bulbs.kind("rose bulb", {1.0f, 0.15f, 0.35f}, 50.0f),
+      bulbs.kind("blue bulb", {0.15f, 0.4f, 1.0f}, 50.0f), bulbs.kind("mint bulb", {0.2f, 1.0f, 0.6f}, 40.0f)};
   std::vector<TubePoint> cord;
   for (int i = 0; i <= 26; ++i) {
     const float t = static_cast<float>(i) / 26.0f * 2.0f - 1.0f;
     const glm::vec3 at(t * 0.95f, kEye + 0.12f + 0.2f * t * t + 0.03f * t, -1.0f - 0.12f * t);
     cord.push_back({at, 0.0025f});
     if (i % 2 == 0) continue;
-    bulbs.place("bulb", kinds[static_cast<size_t>(i / 2) % kinds.size()], at - glm::vec3(0, 0.018f, 0),
-                0.006f);
+    bulbs.place("bulb", kinds[static_cast<size_t>(i / 2) % kinds.size()], at - glm::vec3(0, 0.018f, 0), 0.006f);
   }
   append(metal, makeTube(cord, 6));
 }
@@ -188,8 +181,7 @@ Scene makeStreetLights() {
   append(metal, makeTube(post, 14));
   metal = colored(metal, {0.05f, 0.05f, 0.06f, 1});
   bakeLight(metal, {.towardsSun = {0.5f, 0.7f, 0.6f}, .sun = {0.9f, 0.6f, 0.35f}});
-  scene.glb.add("posts, cars, cord", metal,
-                scene.glb.addMaterial({.name = "metal", .unlit = false, .roughness = 0.6f}),
+  scene.glb.add("posts, cars, cord", metal, scene.glb.addMaterial({.name = "metal", .unlit = false, .roughness = 0.6f}),
                 {.normals = true, .colors = true});
   const int sign = scene.glb.addMaterial({.name = "sign",
                                           .baseColor = {0.6f, 0.55f, 0.5f, 1},
@@ -201,8 +193,7 @@ Scene makeStreetLights() {
 
   Shot shot;
   shot.name = "street_lights";
-  shot.description =
-      "emitters of radiance 40 to 10000 before and behind a street sign in focus at 2 m, night";
+  shot.description = "emitters of radiance 40 to 10000 before and behind a street sign in focus at 2 m, night";
   shot.camera = {.position = {0, kEye, 0}, .target = {0, 1.55f, -10.0f}, .fovyDeg = 40.0f};
   shot.lens = {.apertureRadius = 0.045, .focusDistance = 1.97};
   shot.background = {0.004, 0.006, 0.014};

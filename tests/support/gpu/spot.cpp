@@ -40,8 +40,8 @@ engine::Scene lightScene(double depth, double sidePx, double pixelsPerTangent, d
   engine::Scene scene;
   const double metresPerPx = depth / pixelsPerTangent;
   const uint32_t material = addMaterial(scene, glm::vec4(100.0f, 100.0f, 100.0f, 1.0f));
-  addFacingQuad(scene, depth, x * metresPerPx, -y * metresPerPx, 0.5 * sidePx * metresPerPx,
-                0.5 * sidePx * metresPerPx, material);
+  addFacingQuad(scene, depth, x * metresPerPx, -y * metresPerPx, 0.5 * sidePx * metresPerPx, 0.5 * sidePx * metresPerPx,
+                material);
   return scene;
 }
 

@@ -103,8 +103,7 @@ TEST(Camera, FromASceneIgnoresScaleAndTakesItsNearPlane) {
   glm::dmat4 world = glm::translate(glm::dmat4(1.0), glm::dvec3(1, 2, 3));
   world = glm::rotate(world, 0.5, glm::dvec3(0, 1, 0));
   const Camera plain = engine::cameraFromScene(sceneWithCamera(world), "main");
-  const Camera scaled =
-      engine::cameraFromScene(sceneWithCamera(glm::scale(world, glm::dvec3(4.0))), "main node");
+  const Camera scaled = engine::cameraFromScene(sceneWithCamera(glm::scale(world, glm::dvec3(4.0))), "main node");
   for (const glm::dvec3 point : {glm::dvec3(0, 0, 0), glm::dvec3(5, -3, 2)}) {
     const glm::dvec3 expected(glm::inverse(world) * glm::dvec4(point, 1.0));
     expectNear(viewPoint(plain, point), expected, 1e-12);

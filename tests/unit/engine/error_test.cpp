@@ -6,8 +6,7 @@
 namespace {
 
 TEST(Error, JoinsItsPartsInOneLine) {
-  const engine::Error error(
-      {.file = "a.gltf", .field = "meshes[2]", .reason = "is wrong", .remedy = "mend it"});
+  const engine::Error error({.file = "a.gltf", .field = "meshes[2]", .reason = "is wrong", .remedy = "mend it"});
   EXPECT_STREQ(error.what(), "a.gltf: meshes[2]: is wrong; mend it");
   EXPECT_EQ(error.kind(), engine::ErrorKind::badInput);
 }

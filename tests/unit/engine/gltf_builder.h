@@ -41,8 +41,7 @@ class GltfBuilder {
 
   template <typename T>
   int addView(const std::vector<T>& values, int byteStride = 0) {
-    return addView(std::span(reinterpret_cast<const uint8_t*>(values.data()), values.size() * sizeof(T)),
-                   byteStride);
+    return addView(std::span(reinterpret_cast<const uint8_t*>(values.data()), values.size() * sizeof(T)), byteStride);
   }
 
   /// `type` is SCALAR, VEC3…; values are flat.

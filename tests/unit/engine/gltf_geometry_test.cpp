@@ -71,8 +71,7 @@ TEST(GltfGeometry, StripsAlternateTheirWinding) {
   builder.addMesh({{"attributes", {{"POSITION", positions}}}, {"mode", 5}});
   const Primitive primitive = loadOne(builder);
   EXPECT_EQ(primitive.triangleCount(), 2u);
-  for (const glm::vec3& normal : primitive.normals)
-    EXPECT_EQ(normal, glm::vec3(0, 0, 1));  // both turn the same way
+  for (const glm::vec3& normal : primitive.normals) EXPECT_EQ(normal, glm::vec3(0, 0, 1));  // both turn the same way
 }
 
 TEST(GltfGeometry, FansTurnRoundTheFirstVertex) {
@@ -94,13 +93,11 @@ TEST(GltfGeometry, PointsAndLinesAreLeftOutWithAWarning) {
 
 TEST(GltfGeometry, InterleavedWithStride) {
   GltfBuilder builder;
-  const int view =
-      builder.addView(std::vector<float>{0, 0, 0, .1f, .2f, 1, 0, 0, .3f, .4f, 0, 1, 0, .5f, .6f}, 20);
+  const int view = builder.addView(std::vector<float>{0, 0, 0, .1f, .2f, 1, 0, 0, .3f, .4f, 0, 1, 0, .5f, .6f}, 20);
   const Json accessor = {{"bufferView", view}, {"componentType", 5126}, {"count", 3}, {"type", "VEC3"}};
   const int positions = builder.add("accessors", accessor);
   const int uvs = builder.add(
-      "accessors",
-      {{"bufferView", view}, {"byteOffset", 12}, {"componentType", 5126}, {"count", 3}, {"type", "VEC2"}});
+      "accessors", {{"bufferView", view}, {"byteOffset", 12}, {"componentType", 5126}, {"count", 3}, {"type", "VEC2"}});
   builder.addMesh({{"attributes", {{"POSITION", positions}, {"TEXCOORD_1", uvs}}}});
   const Primitive primitive = loadOne(builder);
   EXPECT_EQ(corners(primitive), kCorners);
@@ -133,14 +130,13 @@ TEST(GltfGeometry, QuantizedPositionsAndUvs) {
   GltfBuilder builder;
   builder.json["extensionsUsed"] = builder.json["extensionsRequired"] = {"KHR_mesh_quantization"};
   // Elements of 6 bytes stand 8 apart.
-  const int view =
-      builder.addView(std::vector<int16_t>{0, 0, 0, 99, 32767, 0, -32768, 99, 0, 16384, 0, 99}, 8);
+  const int view = builder.addView(std::vector<int16_t>{0, 0, 0, 99, 32767, 0, -32768, 99, 0, 16384, 0, 99}, 8);
   const int positions = builder.add(
       "accessors",
       {{"bufferView", view}, {"componentType", 5122}, {"normalized", true}, {"count", 3}, {"type", "VEC3"}});
   const int uvView = builder.addView(std::vector<uint8_t>{0, 255, 0, 0, 3, 4, 0, 0, 5, 6, 0, 0}, 4);
-  const int uvs = builder.add(
-      "accessors", {{"bufferView", uvView}, {"componentType", 5121}, {"count", 3}, {"type", "VEC2"}});
+  const int uvs =
+      builder.add("accessors", {{"bufferView", uvView}, {"componentType", 5121}, {"count", 3}, {"type", "VEC2"}});
   builder.addMesh({{"attributes", {{"POSITION", positions}, {"TEXCOORD_0", uvs}}}});
   const Primitive primitive = loadOne(builder);
   EXPECT_EQ(primitive.positions[1], glm::vec3(1, 0, -1));  // −32768 is clamped to −1
@@ -154,27 +150,23 @@ TEST(GltfGeometry, ColoursOfEveryTypeAreLinear0To1) {
     return loadOne(builder).colors;
   };
   GltfBuilder floats = triangleFile();
-  EXPECT_THAT(
-      colorsOf(floats, floats.addAccessor(std::vector<float>{.1f, .2f, .3f, 2, 0, 0, 0, 0, 1}, "VEC3")),
-      ElementsAre(glm::vec4(.1f, .2f, .3f, 1), glm::vec4(2, 0, 0, 1), glm::vec4(0, 0, 1, 1)));
+  EXPECT_THAT(colorsOf(floats, floats.addAccessor(std::vector<float>{.1f, .2f, .3f, 2, 0, 0, 0, 0, 1}, "VEC3")),
+              ElementsAre(glm::vec4(.1f, .2f, .3f, 1), glm::vec4(2, 0, 0, 1), glm::vec4(0, 0, 1, 1)));
   GltfBuilder bytes = triangleFile();
   EXPECT_THAT(
-      colorsOf(bytes, bytes.addAccessor(std::vector<uint8_t>{255, 0, 51, 102, 0, 0, 0, 0, 0, 0, 0, 255},
-                                        "VEC4", true)),
+      colorsOf(bytes, bytes.addAccessor(std::vector<uint8_t>{255, 0, 51, 102, 0, 0, 0, 0, 0, 0, 0, 255}, "VEC4", true)),
       ElementsAre(glm::vec4(1, 0, 51 / 255.f, 102 / 255.f), glm::vec4(0), glm::vec4(0, 0, 0, 1)));
   GltfBuilder words = triangleFile();
-  EXPECT_THAT(
-      colorsOf(words, words.addAccessor(std::vector<uint16_t>{65535, 0, 13107, 0, 0, 0, 0, 0, 0, 0, 0, 65535},
-                                        "VEC4", true)),
-      ElementsAre(glm::vec4(1, 0, 13107 / 65535.f, 0), glm::vec4(0), glm::vec4(0, 0, 0, 1)));
+  EXPECT_THAT(colorsOf(words, words.addAccessor(std::vector<uint16_t>{65535, 0, 13107, 0, 0, 0, 0, 0, 0, 0, 0, 65535},
+                                                "VEC4", true)),
+              ElementsAre(glm::vec4(1, 0, 13107 / 65535.f, 0), glm::vec4(0), glm::vec4(0, 0, 0, 1)));
 }
 
 TEST(GltfGeometry, GivenNormalsAreNormalisedAndTangentsKept) {
   GltfBuilder builder = triangleFile();
   auto& attributes = builder.json["meshes"][0]["primitives"][0]["attributes"];
   attributes["NORMAL"] = builder.addAccessor(std::vector<float>{0, 3, 0, 0, 0, -2, 0, 0, 0}, "VEC3");
-  attributes["TANGENT"] =
-      builder.addAccessor(std::vector<float>{1, 0, 0, -1, 1, 0, 0, 1, 0, 1, 0, 1}, "VEC4");
+  attributes["TANGENT"] = builder.addAccessor(std::vector<float>{1, 0, 0, -1, 1, 0, 0, 1, 0, 1, 0, 1}, "VEC4");
   const Primitive primitive = loadOne(builder);
   EXPECT_THAT(primitive.normals, ElementsAre(glm::vec3(0, 1, 0), glm::vec3(0, 0, -1), glm::vec3(0, 0, 1)));
   EXPECT_EQ(primitive.tangents[0], glm::vec4(1, 0, 0, -1));
@@ -199,8 +191,7 @@ TEST(GltfGeometry, DegenerateTrianglesHaveAFiniteNormal) {
 
 TEST(GltfGeometry, IncompleteTriangleIsLeftOutWithAWarning) {
   GltfBuilder builder;
-  builder.addMesh(
-      {{"attributes", {{"POSITION", builder.addAccessor(std::vector<float>(12, 4.0f), "VEC3")}}}});
+  builder.addMesh({{"attributes", {{"POSITION", builder.addAccessor(std::vector<float>(12, 4.0f), "VEC3")}}}});
   std::vector<std::string> warnings;
   EXPECT_EQ(loadOne(builder, &warnings).triangleCount(), 1u);
   EXPECT_THAT(warnings, ElementsAre(HasSubstr("do not make whole triangles")));
@@ -247,12 +238,10 @@ TEST(GltfGeometry, SkinsAreBakedInTheirRestPose) {
       {"attributes",
        {{"POSITION", builder.addAccessor(kTriangle, "VEC3")},
         {"JOINTS_0", builder.addAccessor(std::vector<uint8_t>{0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0}, "VEC4")},
-        {"WEIGHTS_0",
-         builder.addAccessor(std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, .5f, .5f, 0, 0}, "VEC4")}}}};
+        {"WEIGHTS_0", builder.addAccessor(std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, .5f, .5f, 0, 0}, "VEC4")}}}};
   const int node = builder.addMesh(primitive);
   builder.json["nodes"][static_cast<size_t>(node)]["skin"] = 0;
-  builder.json["nodes"][static_cast<size_t>(node)]["translation"] = {
-      0, 0, 100};  // does not count for a skinned mesh
+  builder.json["nodes"][static_cast<size_t>(node)]["translation"] = {0, 0, 100};  // does not count for a skinned mesh
   const int joint0 = builder.addNode(Json::object());
   const int joint1 = builder.addNode({{"translation", {10, 0, 0}}});
   builder.json["skins"] = {{{"joints", {joint0, joint1}}, {"inverseBindMatrices", inverses}}};

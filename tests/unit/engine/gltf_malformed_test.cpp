@@ -35,20 +35,17 @@ std::string errorOfFile(const std::filesystem::path& path) {
 /// A file that uses everything once, so that each member can be spoiled.
 GltfBuilder fullFile() {
   GltfBuilder builder;
-  const int positions = builder.addAccessor(test::kTriangle, "VEC3");                 // accessor 0, view 0
-  const int indices = builder.addAccessor(std::vector<uint16_t>{0, 1, 2}, "SCALAR");  // accessor 1, view 1
-  const int normals =
-      builder.addAccessor(std::vector<float>{0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");  // accessor 2, view 2
-  const int sparseIndices = builder.addView(std::vector<uint16_t>{1, 2});          // view 3
-  const int sparseValues = builder.addView(std::vector<float>{5, 0, 0, 0, 6, 0});  // view 4
-  builder.json["accessors"][0]["sparse"] = {
-      {"count", 2},
-      {"indices", {{"bufferView", sparseIndices}, {"componentType", 5123}}},
-      {"values", {{"bufferView", sparseValues}}}};
+  const int positions = builder.addAccessor(test::kTriangle, "VEC3");                              // accessor 0, view 0
+  const int indices = builder.addAccessor(std::vector<uint16_t>{0, 1, 2}, "SCALAR");               // accessor 1, view 1
+  const int normals = builder.addAccessor(std::vector<float>{0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");  // accessor 2, view 2
+  const int sparseIndices = builder.addView(std::vector<uint16_t>{1, 2});                          // view 3
+  const int sparseValues = builder.addView(std::vector<float>{5, 0, 0, 0, 6, 0});                  // view 4
+  builder.json["accessors"][0]["sparse"] = {{"count", 2},
+                                            {"indices", {{"bufferView", sparseIndices}, {"componentType", 5123}}},
+                                            {"values", {{"bufferView", sparseValues}}}};
   builder.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 1}}}}}};
-  builder.addMesh({{"attributes", {{"POSITION", positions}, {"NORMAL", normals}}},
-                   {"indices", indices},
-                   {"material", 0}});
+  builder.addMesh(
+      {{"attributes", {{"POSITION", positions}, {"NORMAL", normals}}}, {"indices", indices}, {"material", 0}});
   builder.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}}};
   builder.addNode({{"camera", 0}, {"children", Json::array()}});
   builder.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
@@ -117,27 +114,27 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     Types, Malformed,
-    testing::Values(
-        Fault{"/nodes", 3, "nodes: is not an array"}, Fault{"/nodes/0", "a", "nodes[0]: is not an object"},
-        Fault{"/meshes/0/primitives", kErase, "meshes[0].primitives: is missing"},
-        Fault{"/meshes/0/primitives/0/attributes", {1, 2}, "attributes: is not an object"},
-        Fault{"/accessors/0/count", "three", "accessors[0].count: is \"three\", not an integer"},
-        Fault{"/accessors/0/count", 2.5, "accessors[0].count: is 2.5, not an integer"},
-        Fault{"/accessors/0/count", kErase, "accessors[0].count: is missing"},
-        Fault{"/accessors/0/type", 7, "accessors[0].type: is not a string"},
-        Fault{"/accessors/0/normalized", 1, "accessors[0].normalized: is not true or false"},
-        Fault{"/nodes/0/matrix", {1, 2, 3}, "nodes[0].matrix: has 3 elements instead of 16"},
-        Fault{"/nodes/0/rotation", {0, 0, 0, "w"}, "nodes[0].rotation[3]: is not a number"},
-        Fault{"/nodes/0/rotation", {0, 0, 0, 0}, "nodes[0].rotation: is no rotation"},
-        Fault{"/nodes/0/translation", {1e300, 1e300, 0}, "no error"},
-        Fault{"/materials/0/pbrMetallicRoughness/baseColorFactor", {1, 1}, "baseColorFactor: has 2 elements"},
-        Fault{"/materials/0/alphaMode", "GLASS", "materials[0].alphaMode: 'GLASS'"},
-        Fault{"/materials/0/alphaCutoff", 1e300, "materials[0].alphaCutoff: is too large"},
-        Fault{"/cameras/0/perspective/yfov", 4, "cameras[0].perspective.yfov: is not inside"},
-        Fault{"/cameras/0/perspective/znear", 0, "cameras[0].perspective.znear: is not positive"},
-        Fault{"/asset/version", "1.0", "asset.version: glTF 1.0 is not read"},
-        Fault{"/asset", kErase, "asset: is missing"},
-        Fault{"/extensionsRequired", "KHR_x", "extensionsRequired: is not an array"}));
+    testing::Values(Fault{"/nodes", 3, "nodes: is not an array"}, Fault{"/nodes/0", "a", "nodes[0]: is not an object"},
+                    Fault{"/meshes/0/primitives", kErase, "meshes[0].primitives: is missing"},
+                    Fault{"/meshes/0/primitives/0/attributes", {1, 2}, "attributes: is not an object"},
+                    Fault{"/accessors/0/count", "three", "accessors[0].count: is \"three\", not an integer"},
+                    Fault{"/accessors/0/count", 2.5, "accessors[0].count: is 2.5, not an integer"},
+                    Fault{"/accessors/0/count", kErase, "accessors[0].count: is missing"},
+                    Fault{"/accessors/0/type", 7, "accessors[0].type: is not a string"},
+                    Fault{"/accessors/0/normalized", 1, "accessors[0].normalized: is not true or false"},
+                    Fault{"/nodes/0/matrix", {1, 2, 3}, "nodes[0].matrix: has 3 elements instead of 16"},
+                    Fault{"/nodes/0/rotation", {0, 0, 0, "w"}, "nodes[0].rotation[3]: is not a number"},
+                    Fault{"/nodes/0/rotation", {0, 0, 0, 0}, "nodes[0].rotation: is no rotation"},
+                    Fault{"/nodes/0/translation", {1e300, 1e300, 0}, "no error"},
+                    Fault{
+                        "/materials/0/pbrMetallicRoughness/baseColorFactor", {1, 1}, "baseColorFactor: has 2 elements"},
+                    Fault{"/materials/0/alphaMode", "GLASS", "materials[0].alphaMode: 'GLASS'"},
+                    Fault{"/materials/0/alphaCutoff", 1e300, "materials[0].alphaCutoff: is too large"},
+                    Fault{"/cameras/0/perspective/yfov", 4, "cameras[0].perspective.yfov: is not inside"},
+                    Fault{"/cameras/0/perspective/znear", 0, "cameras[0].perspective.znear: is not positive"},
+                    Fault{"/asset/version", "1.0", "asset.version: glTF 1.0 is not read"},
+                    Fault{"/asset", kErase, "asset: is missing"},
+                    Fault{"/extensionsRequired", "KHR_x", "extensionsRequired: is not an array"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Ranges, Malformed,
@@ -147,20 +144,17 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"/accessors/0/count", 1e30, "accessors[0].count: is 1e+30"},
         Fault{"/accessors/0/byteOffset", 4, "accessors[0]: reaches past the end"},
         Fault{"/accessors/0/byteOffset", 9007199254740992, "accessors[0]: reaches past the end"},
-        Fault{"/meshes/0/primitives/0/mode", 4294967300,
-              "meshes[0].primitives[0].mode: is 4294967300, too large"},
+        Fault{"/meshes/0/primitives/0/mode", 4294967300, "meshes[0].primitives[0].mode: is 4294967300, too large"},
         Fault{"/accessors/0/type", "VEC2", "attributes.POSITION: its accessor has 2 components instead of 3"},
         Fault{"/accessors/0/componentType", 5124, "attributes.POSITION: its accessor's component type 5124"},
         Fault{"/accessors/1/componentType", 5126, "indices: its accessor is not of plain unsigned integers"},
         Fault{"/accessors/2/count", 2, "attributes.NORMAL: has 2 elements, POSITION has 3"},
         Fault{"/accessors/0/sparse/count", 4, "accessors[0].sparse.count: is larger"},
-        Fault{"/accessors/0/sparse/indices/componentType", 5126,
-              "accessors[0].sparse.indices.componentType: 5126"},
+        Fault{"/accessors/0/sparse/indices/componentType", 5126, "accessors[0].sparse.indices.componentType: 5126"},
         Fault{"/accessors/0/sparse/indices/byteOffset", 2147483000,
               "accessors[0].sparse.indices: reaches past the end"},
         Fault{"/accessors/0/sparse/indices/byteOffset", 4294967295, "accessors[0].sparse.indices.byteOffset"},
-        Fault{"/bufferViews/0/byteLength", 1000000,
-              "bufferViews[0]: bytes 0 + 1000000 are outside its buffer"},
+        Fault{"/bufferViews/0/byteLength", 1000000, "bufferViews[0]: bytes 0 + 1000000 are outside its buffer"},
         Fault{"/bufferViews/0/byteOffset", 9007199254740992, "bufferViews[0]: bytes 9007199254740992"},
         Fault{"/buffers/0/byteLength", 1000000, "buffers[0].byteLength: promises 1000000 bytes"},
         Fault{"/buffers/0/uri", "none.bin", "buffers[0].uri: 'none.bin': no such file"},
@@ -184,8 +178,7 @@ TEST(GltfMalformed, SparseIndexBeyondTheAccessor) {
   GltfBuilder builder = fullFile();
   const size_t offset = builder.json["bufferViews"][3]["byteOffset"];
   builder.binary[offset] = 200;
-  EXPECT_THAT(errorOfFile(builder.write(folder)),
-              HasSubstr("accessors[0].sparse.indices: index 200 is out of range"));
+  EXPECT_THAT(errorOfFile(builder.write(folder)), HasSubstr("accessors[0].sparse.indices: index 200 is out of range"));
 }
 
 TEST(GltfMalformed, AccessorOfZerosThatClaimsAllMemory) {
@@ -282,15 +275,13 @@ TEST(GltfMalformed, JsonErrorsSayWhere) {
     std::ofstream(folder / "a.gltf") << text;
     return errorOfFile(folder / "a.gltf");
   };
-  EXPECT_THAT(errorWith("{\n  \"asset\": }"),
-              HasSubstr("is not valid glTF JSON: parse error at line 2, column 12"));
+  EXPECT_THAT(errorWith("{\n  \"asset\": }"), HasSubstr("is not valid glTF JSON: parse error at line 2, column 12"));
   EXPECT_THAT(errorWith("[]"), HasSubstr("its JSON is no object"));
-  EXPECT_THAT(errorWith("{\"asset\":{\"version\":\"2.0\"},\"x\":1e999}"),
-              HasSubstr("is not valid glTF JSON"));
+  EXPECT_THAT(errorWith("{\"asset\":{\"version\":\"2.0\"},\"x\":1e999}"), HasSubstr("is not valid glTF JSON"));
   EXPECT_THAT(errorWith("{\"asset\":{\"version\":\"2.0\",\"copyright\":\"\xff\"}}"),
               HasSubstr("is not valid glTF JSON"));
-  const std::string deep = "{\"asset\":{\"version\":\"2.0\"},\"extras\":" + std::string(1000000, '[') +
-                           std::string(1000000, ']') + "}";
+  const std::string deep =
+      "{\"asset\":{\"version\":\"2.0\"},\"extras\":" + std::string(1000000, '[') + std::string(1000000, ']') + "}";
   EXPECT_THAT(errorWith(deep), HasSubstr("nested deeper than 100 levels"));
 }
 
@@ -305,8 +296,8 @@ TEST(GltfMalformed, RandomDamageNeverCrashes) {
     for (int k = run % 4; k >= 0; --k) {
       // Digits for digits keep the JSON valid, so that the damage reaches what is behind the parser.
       const size_t place = 20 + random() % (glb.size() - 20);
-      glb[place] = std::isdigit(glb[place]) ? static_cast<uint8_t>('0' + random() % 10)
-                                            : static_cast<uint8_t>(random());
+      glb[place] =
+          std::isdigit(glb[place]) ? static_cast<uint8_t>('0' + random() % 10) : static_cast<uint8_t>(random());
     }
     test::writeBytes(folder / "a.glb", glb);
     try {

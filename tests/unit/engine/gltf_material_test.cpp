@@ -38,10 +38,8 @@ GltfBuilder fileWith(const Json& material) {
 }
 
 /// Adds a texture of an embedded image; returns its index.
-int addTexture(GltfBuilder& builder, const std::vector<uint8_t>& png = kPixel,
-               Json texture = Json::object()) {
-  texture["source"] =
-      builder.add("images", {{"bufferView", builder.addView(png)}, {"mimeType", "image/png"}});
+int addTexture(GltfBuilder& builder, const std::vector<uint8_t>& png = kPixel, Json texture = Json::object()) {
+  texture["source"] = builder.add("images", {{"bufferView", builder.addView(png)}, {"mimeType", "image/png"}});
   return builder.add("textures", texture);
 }
 
@@ -79,15 +77,15 @@ TEST(GltfMaterial, DefaultsAreThoseOfTheSpecification) {
 }
 
 TEST(GltfMaterial, FactorsAndModes) {
-  const Material material = loadOne(
-      {{"name", "paint"},
-       {"alphaMode", "MASK"},
-       {"alphaCutoff", 0.25},
-       {"doubleSided", true},
-       {"emissiveFactor", {0.5, 0.25, 1}},
-       {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 12}}}}},
-       {"pbrMetallicRoughness",
-        {{"baseColorFactor", {0.1, 0.2, 0.3, 0.4}}, {"metallicFactor", 0}, {"roughnessFactor", 0.75}}}});
+  const Material material =
+      loadOne({{"name", "paint"},
+               {"alphaMode", "MASK"},
+               {"alphaCutoff", 0.25},
+               {"doubleSided", true},
+               {"emissiveFactor", {0.5, 0.25, 1}},
+               {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 12}}}}},
+               {"pbrMetallicRoughness",
+                {{"baseColorFactor", {0.1, 0.2, 0.3, 0.4}}, {"metallicFactor", 0}, {"roughnessFactor", 0.75}}}});
   EXPECT_EQ(material.name, "paint");
   EXPECT_EQ(material.alphaMode, engine::AlphaMode::mask);
   EXPECT_EQ(material.alphaCutoff, 0.25f);
@@ -119,9 +117,7 @@ TEST(GltfMaterial, TexturesSayHowTheirImagesAreEncoded) {
        {{"baseColorTexture", {{"index", texture}}}, {"metallicRoughnessTexture", {{"index", texture}}}}}};
   const Scene scene = load(builder);
   const Material& material = scene.materials[0];
-  const auto imageOf = [&](const engine::TextureUse& use) {
-    return scene.images[scene.textures[use.texture].image];
-  };
+  const auto imageOf = [&](const engine::TextureUse& use) { return scene.images[scene.textures[use.texture].image]; };
   EXPECT_EQ(imageOf(material.baseColorTexture).encoding, ColorEncoding::srgb);
   EXPECT_EQ(imageOf(material.emissiveTexture).encoding, ColorEncoding::srgb);
   EXPECT_EQ(imageOf(material.metallicRoughnessTexture).encoding, ColorEncoding::linear);
@@ -132,8 +128,7 @@ TEST(GltfMaterial, TexturesSayHowTheirImagesAreEncoded) {
   EXPECT_EQ(material.occlusionTexture.uvSet, 1u);
   EXPECT_EQ(scene.images.size(), 2u);  // one per encoding, however often it is used
   EXPECT_EQ(scene.textures.size(), 2u);
-  for (const engine::SceneImage& image : scene.images)
-    EXPECT_THAT(image.rgba, ElementsAre(200, 100, 50, 128));
+  for (const engine::SceneImage& image : scene.images) EXPECT_THAT(image.rgba, ElementsAre(200, 100, 50, 128));
 
   const Scene unlitOnly = load(builder, nullptr, {.loadShadingTextures = false});
   EXPECT_EQ(unlitOnly.images.size(), 1u);
@@ -176,9 +171,7 @@ TEST(GltfMaterial, TextureTransformOverridesTheUvSet) {
   const Json transform = {
       {"offset", {0.5, 0.25}}, {"rotation", 1.5707963267948966}, {"scale", {2, 3}}, {"texCoord", 1}};
   builder.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {
-      {"index", addTexture(builder)},
-      {"texCoord", 0},
-      {"extensions", {{"KHR_texture_transform", transform}}}};
+      {"index", addTexture(builder)}, {"texCoord", 0}, {"extensions", {{"KHR_texture_transform", transform}}}};
   const engine::TextureUse use = load(builder).materials[0].baseColorTexture;
   EXPECT_EQ(use.uvSet, 1u);
   // KHR_texture_transform: T · R · S; u turns towards −v by 90 degrees.
@@ -211,24 +204,21 @@ TEST(GltfMaterial, MissingUvsAreAWarning) {
 
 std::vector<uint8_t> pixelsOf(const std::vector<uint8_t>& png) {
   GltfBuilder builder = fileWith(Json::object());
-  builder.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {
-      {"index", addTexture(builder, png)}};
+  builder.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", addTexture(builder, png)}};
   return load(builder).images.at(0).rgba;
 }
 
 TEST(GltfImage, EveryPngBecomesRgba8) {
   EXPECT_THAT(pixelsOf(rawPng(1, 1, 8, PngColor::rgb, {1, 2, 3})), ElementsAre(1, 2, 3, 255));
   EXPECT_THAT(pixelsOf(rawPng(1, 1, 8, PngColor::grey, {77})), ElementsAre(77, 77, 77, 255));
-  EXPECT_THAT(pixelsOf(rawPng(1, 1, 16, PngColor::rgba, {65535, 32896, 128, 0})),
-              ElementsAre(255, 128, 0, 0));
+  EXPECT_THAT(pixelsOf(rawPng(1, 1, 16, PngColor::rgba, {65535, 32896, 128, 0})), ElementsAre(255, 128, 0, 0));
   EXPECT_THAT(pixelsOf(rawPng(2, 1, 8, PngColor::grey, {1, 2})), ElementsAre(1, 1, 1, 255, 2, 2, 2, 255));
 }
 
 TEST(GltfImage, DataUriAndExternalFile) {
   const TemporaryFolder folder;
   test::writeBytes(folder / "my pixel.png", kPixel);
-  for (const std::string& uri :
-       {"data:image/png;base64," + test::base64(kPixel), std::string("my%20pixel.png")}) {
+  for (const std::string& uri : {"data:image/png;base64," + test::base64(kPixel), std::string("my%20pixel.png")}) {
     GltfBuilder builder = fileWith(Json::object());
     builder.json["images"] = {{{"uri", uri}}};
     builder.json["textures"] = {{{"source", 0}}};
@@ -243,8 +233,7 @@ TEST(GltfImage, WhatNothingDrawsIsNotOpened) {
   GltfBuilder builder = fileWith(Json::object());
   builder.json["images"] = {{{"uri", "missing.png"}}};
   builder.json["textures"] = {{{"source", 0}}};
-  builder.add("materials",
-              {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});  // material 1, unused
+  builder.add("materials", {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});  // material 1, unused
   EXPECT_THAT(load(builder).images, IsEmpty());
 }
 
@@ -282,8 +271,7 @@ TEST(GltfImage, TruncatedAtEveryLength) {
   const std::vector<uint8_t> png = rawPng(16, 16, 8, PngColor::rgba, std::vector<uint16_t>(1024, 99));
   for (size_t length = 1; length + 1024 < png.size(); length += 3) {
     test::writeBytes(folder / "cut.png", std::span(png).first(length));
-    EXPECT_THAT(errorWithImage({{"uri", "cut.png"}}, folder), HasSubstr("images[0]: 'cut.png' is "))
-        << length;
+    EXPECT_THAT(errorWithImage({{"uri", "cut.png"}}, folder), HasSubstr("images[0]: 'cut.png' is ")) << length;
   }
 }
 

@@ -39,10 +39,8 @@ TEST(GltfScene, NodesComposeTranslationRotationScale) {
   const double half = std::sqrt(0.5);
   builder.json["nodes"][0]["translation"] = {1, 0, 0};
   // 90 degrees about +Z, then twice as large: child point (1,0,0) -> (2,0,0) scaled before the turn.
-  builder.addNode({{"children", {0}},
-                   {"translation", {0, 0, 5}},
-                   {"rotation", {0, 0, half, half}},
-                   {"scale", {2, 2, 2}}});
+  builder.addNode(
+      {{"children", {0}}, {"translation", {0, 0, 5}}, {"rotation", {0, 0, half, half}}, {"scale", {2, 2, 2}}});
   builder.json["scenes"][0]["nodes"] = {1};
   const Scene scene = load(builder);
   ASSERT_EQ(scene.instances.size(), 1u);
@@ -179,8 +177,8 @@ TEST(GltfScene, IgnoredExtensionsAndAnimationsAreWarnings) {
   builder.json["animations"] = {{{"channels", Json::array()}, {"samplers", Json::array()}}};
   std::vector<std::string> warnings;
   load(builder, &warnings);
-  EXPECT_THAT(warnings, ElementsAre(HasSubstr("KHR_materials_transmission is ignored"),
-                                    HasSubstr("animations are ignored")));
+  EXPECT_THAT(warnings,
+              ElementsAre(HasSubstr("KHR_materials_transmission is ignored"), HasSubstr("animations are ignored")));
 }
 
 TEST(GltfScene, RequiredExtensionsThatAreNotReadAreNamed) {
@@ -252,11 +250,10 @@ TEST(Scene, FindsProblemsOfScenesMadeByHand) {
   primitive.uvs[0] = {{0, 0}};
   scene.primitives.push_back(primitive);
   scene.instances.push_back({.primitive = 4, .worldFromObject = glm::dmat4(1.0), .name = ""});
-  EXPECT_THAT(
-      engine::findProblems(scene),
-      testing::UnorderedElementsAre(HasSubstr("primitives[0].material"), HasSubstr("primitives[0].uvs[0]"),
-                                    HasSubstr("primitives[0].indices"), HasSubstr("primitives[0].positions"),
-                                    HasSubstr("instances[0].primitive")));
+  EXPECT_THAT(engine::findProblems(scene),
+              testing::UnorderedElementsAre(HasSubstr("primitives[0].material"), HasSubstr("primitives[0].uvs[0]"),
+                                            HasSubstr("primitives[0].indices"), HasSubstr("primitives[0].positions"),
+                                            HasSubstr("instances[0].primitive")));
 }
 
 }  // namespace

@@ -42,8 +42,7 @@ std::string errorOf(Action action) {
 
 FloatImage awkwardImage(uint32_t channels) {
   FloatImage image(5, 3, channels);
-  const float values[] = {0.18f,  -2.5f, kNan,     kInfinity,  -kInfinity, 0.0f,
-                          1e-40f, 3e38f, 65504.0f, 0.3333333f, -0.0f};
+  const float values[] = {0.18f, -2.5f, kNan, kInfinity, -kInfinity, 0.0f, 1e-40f, 3e38f, 65504.0f, 0.3333333f, -0.0f};
   for (size_t i = 0; i < image.samples.size(); ++i) image.samples[i] = values[i % std::size(values)];
   return image;
 }
@@ -56,8 +55,7 @@ void expectSameBits(const FloatImage& a, const FloatImage& b) {
     if (std::isnan(a.samples[i])) {
       EXPECT_TRUE(std::isnan(b.samples[i])) << i;
     } else {
-      EXPECT_EQ(std::memcmp(&a.samples[i], &b.samples[i], 4), 0)
-          << i << ": " << a.samples[i] << " " << b.samples[i];
+      EXPECT_EQ(std::memcmp(&a.samples[i], &b.samples[i], 4), 0) << i << ": " << a.samples[i] << " " << b.samples[i];
     }
   }
 }
@@ -171,8 +169,7 @@ TEST(ImageIo, HdrKeepsRadianceWithinItsPrecision) {
   ASSERT_EQ(read.samples.size(), image.samples.size());
   for (size_t i = 0; i < image.samples.size(); ++i) {
     const float largest = image.samples[i / 3 * 3];
-    EXPECT_NEAR(read.samples[i], image.samples[i], largest / 120.0f)
-        << i;  // 8 bits of mantissa, shared exponent
+    EXPECT_NEAR(read.samples[i], image.samples[i], largest / 120.0f) << i;  // 8 bits of mantissa, shared exponent
   }
 }
 
@@ -196,8 +193,7 @@ class EveryFormat : public testing::TestWithParam<const char*> {};
 
 TEST_P(EveryFormat, MissingFile) {
   const TemporaryFolder folder;
-  EXPECT_THAT(errorOf([&] { readImage(folder / (std::string("none") + GetParam())); }),
-              HasSubstr("no such file"));
+  EXPECT_THAT(errorOf([&] { readImage(folder / (std::string("none") + GetParam())); }), HasSubstr("no such file"));
 }
 
 TEST_P(EveryFormat, EmptyFile) {
@@ -211,8 +207,7 @@ TEST_P(EveryFormat, TruncatedAtEveryLength) {
   const TemporaryFolder folder;
   const auto path = folder / (std::string("whole") + GetParam());
   FloatImage image(31, 17, 3);
-  for (size_t i = 0; i < image.samples.size(); ++i)
-    image.samples[i] = static_cast<float>(i * 7919 % 1000) / 1000.0f;
+  for (size_t i = 0; i < image.samples.size(); ++i) image.samples[i] = static_cast<float>(i * 7919 % 1000) / 1000.0f;
   writeImage(path, image);
   const std::vector<uint8_t> bytes = test::readBytes(path);
   const auto cut = folder / (std::string("cut") + GetParam());

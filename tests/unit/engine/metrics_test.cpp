@@ -68,8 +68,7 @@ TEST(Metrics, PsnrOfAConstantDifferenceInEncodedValues) {
 
 TEST(Metrics, PsnrIsOfTheThreeChannelsTogether) {
   FloatImage a(4, 4, 3), b(4, 4, 3);
-  for (size_t i = 0; i < a.samples.size(); i += 3)
-    b.samples[i + 1] = 1.0f;  // a third of all samples is wrong by 1
+  for (size_t i = 0; i < a.samples.size(); i += 3) b.samples[i + 1] = 1.0f;  // a third of all samples is wrong by 1
   EXPECT_NEAR(compareImages(a, b).psnr, 10.0 * std::log10(3.0), 1e-9);
 }
 

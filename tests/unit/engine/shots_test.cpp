@@ -55,8 +55,7 @@ uint64_t expectedTriangles(const Json& json) {
 std::vector<fs::path> modelFiles() {
   std::vector<fs::path> files;
   for (const auto& entry : fs::recursive_directory_iterator(kShots)) {
-    if (entry.path().extension() == ".glb" || entry.path().extension() == ".gltf")
-      files.push_back(entry.path());
+    if (entry.path().extension() == ".glb" || entry.path().extension() == ".gltf") files.push_back(entry.path());
   }
   return files;
 }
@@ -91,8 +90,7 @@ TEST_F(Shots, GlassHasEightBlendedPanes) {
   engine::appendGltf(scene, kShots / "glass/glass.glb");
   int panes = 0;
   for (const engine::Instance& instance : scene.instances) {
-    panes +=
-        scene.materials[scene.primitives[instance.primitive].material].alphaMode == engine::AlphaMode::blend;
+    panes += scene.materials[scene.primitives[instance.primitive].material].alphaMode == engine::AlphaMode::blend;
   }
   EXPECT_EQ(panes, 8);
 }
@@ -108,8 +106,8 @@ TEST_F(Shots, TheHelmetHasItsTexturesAndSize) {
 
 TEST_F(Shots, TheToyCarWarnsOfWhatIsIgnored) {
   Scene scene;
-  const auto warnings = engine::appendGltf(scene, kShots / "models/ToyCar/ToyCar.gltf", glm::dmat4(1.0),
-                                           {.loadShadingTextures = false});
+  const auto warnings =
+      engine::appendGltf(scene, kShots / "models/ToyCar/ToyCar.gltf", glm::dmat4(1.0), {.loadShadingTextures = false});
   EXPECT_THAT(warnings, testing::Contains(testing::HasSubstr("KHR_materials_clearcoat is ignored")));
   EXPECT_THAT(warnings, testing::Contains(testing::HasSubstr("KHR_materials_transmission is ignored")));
 }

@@ -33,8 +33,7 @@ class TemporaryFolder {
   /// Names of everything in the folder, hidden files included.
   std::vector<std::string> names() const {
     std::vector<std::string> result;
-    for (const auto& entry : std::filesystem::directory_iterator(path_))
-      result.push_back(entry.path().filename());
+    for (const auto& entry : std::filesystem::directory_iterator(path_)) result.push_back(entry.path().filename());
     return result;
   }
 

@@ -19,7 +19,8 @@ void addSquare(Scene& scene, double depth, double x, double half) {
   corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1);
   square.indices = {0, 1, 2, 0, 2, 3};
   scene.primitives.push_back(square);
-  scene.instances.push_back({.primitive = uint32_t(scene.primitives.size() - 1), .worldFromObject = glm::dmat4(1.0), .name = ""});
+  scene.instances.push_back(
+      {.primitive = uint32_t(scene.primitives.size() - 1), .worldFromObject = glm::dmat4(1.0), .name = ""});
 }
 
 engine::Camera camera90() {
@@ -29,7 +30,9 @@ engine::Camera camera90() {
   return camera;
 }
 
-TEST(VisibleRange, EmptySceneSeesNothing) { EXPECT_TRUE(visibleRange({}, camera90(), 100, 100, 0.0, 1.0).isEmpty); }
+TEST(VisibleRange, EmptySceneSeesNothing) {
+  EXPECT_TRUE(visibleRange({}, camera90(), 100, 100, 0.0, 1.0).isEmpty);
+}
 
 TEST(VisibleRange, HiddenSurfacesCount) {
   Scene scene;

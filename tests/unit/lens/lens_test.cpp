@@ -41,8 +41,7 @@ float depthBuffer(double nearPlane, double depth) {
 }
 
 float cocThroughDepthBuffer(const shared::LensConstants& constants, double nearPlane, double depth) {
-  return shared::signedCocRadius(constants,
-                                 shared::vergenceFromDepthBuffer(constants, depthBuffer(nearPlane, depth)));
+  return shared::signedCocRadius(constants, shared::vergenceFromDepthBuffer(constants, depthBuffer(nearPlane, depth)));
 }
 
 TEST(Lens, DefaultsAreValid) {
@@ -59,8 +58,7 @@ TEST(Lens, EveryBadFieldIsNamed) {
   for (const double bad : {0.0, -1.0, kNaN, -kInfinity}) {
     EXPECT_THAT(with(&Lens::focusDistance, bad), ElementsAre("focusDistance")) << bad;
   }
-  for (const double bad : {-1.0, kNaN, kInfinity})
-    EXPECT_THAT(with(&Lens::fStop, bad), ElementsAre("fStop")) << bad;
+  for (const double bad : {-1.0, kNaN, kInfinity}) EXPECT_THAT(with(&Lens::fStop, bad), ElementsAre("fStop")) << bad;
   for (const double bad : {0.0, -50.0, kNaN, kInfinity}) {
     EXPECT_THAT(with(&Lens::focalLengthMm, bad), ElementsAre("focalLengthMm")) << bad;
     EXPECT_THAT(with(&Lens::sensorWidthMm, bad), ElementsAre("sensorWidthMm")) << bad;
@@ -73,8 +71,7 @@ TEST(Lens, EveryBadFieldIsNamed) {
     EXPECT_THAT(with(&Lens::bladeCurvature, bad), ElementsAre("bladeCurvature"));
     EXPECT_THAT(with(&Lens::maxCocRadius, bad), ElementsAre("maxCocRadius"));
   }
-  for (const int bad : {-1, 1, 2, 17})
-    EXPECT_THAT(with(&Lens::bladeCount, bad), ElementsAre("bladeCount")) << bad;
+  for (const int bad : {-1, 1, 2, 17}) EXPECT_THAT(with(&Lens::bladeCount, bad), ElementsAre("bladeCount")) << bad;
   EXPECT_THAT(with(&Lens::bladeCurvature, 1.01), ElementsAre("bladeCurvature"));
   EXPECT_THAT(with(&Lens::anamorphicRatio, 0.2), ElementsAre("anamorphicRatio"));
   EXPECT_THAT(with(&Lens::opticalVignetting, -0.1), ElementsAre("opticalVignetting"));
@@ -152,8 +149,7 @@ TEST(Lens, AWorkedExample) {
   EXPECT_NEAR(shared::signedCocRadius(pinhole, 0.0f), radiusOnSensor / 24.0 * 1080.0, 1e-4);
   lens.fovModel = FovModel::breathing;
   const auto breathing = engine::lensConstants(lens, fovy, 1080, 0.1);
-  EXPECT_NEAR(static_cast<double>(breathing.cocScale) / static_cast<double>(pinhole.cocScale),
-              3.0 / (3.0 - 0.085),
+  EXPECT_NEAR(static_cast<double>(breathing.cocScale) / static_cast<double>(pinhole.cocScale), 3.0 / (3.0 - 0.085),
               1e-6);  // 2.9 %
 }
 
@@ -184,8 +180,7 @@ TEST(Lens, SceneUnitsMeetTheLensAtTheNearPlane) {
   lens.metersPerUnit = 0.01;
   lens.focusDistance = 3.0;
   const double nearUnits = 10.0, depthUnits = 450.0;
-  const auto constants =
-      engine::lensConstants(lens, kFovy, 1080, engine::metersFromSceneUnits(lens, nearUnits));
+  const auto constants = engine::lensConstants(lens, kFovy, 1080, engine::metersFromSceneUnits(lens, nearUnits));
   const float z = static_cast<float>(nearUnits / depthUnits);
   EXPECT_NEAR(shared::vergenceFromDepthBuffer(constants, z), 1.0f / 4.5f, 1e-6f);
   EXPECT_NEAR(shared::signedCocRadius(constants, shared::vergenceFromDepthBuffer(constants, z)),
@@ -204,11 +199,10 @@ TEST(Lens, TheDepthBufferGivesTheCocOverAllExtremes) {
         const auto constants = engine::lensConstants(lens, kFovy, 1080, nearPlane);
         for (double depth = nearPlane; depth < 1e9; depth *= 1.7) {
           const long double exact = exactCoc(lens, kFovy, 1080, depth);
-          const long double larger = static_cast<long double>(constants.cocScale) *
-                                     std::max(1.0L / lens.focusDistance, 1.0L / depth);
+          const long double larger =
+              static_cast<long double>(constants.cocScale) * std::max(1.0L / lens.focusDistance, 1.0L / depth);
           const auto coc = static_cast<long double>(cocThroughDepthBuffer(constants, nearPlane, depth));
-          ASSERT_LE(std::abs(coc - exact), 4.0L * 0x1p-23L * larger)
-              << focus << ' ' << nearPlane << ' ' << depth;
+          ASSERT_LE(std::abs(coc - exact), 4.0L * 0x1p-23L * larger) << focus << ' ' << nearPlane << ' ' << depth;
           ++checked;
         }
       }
@@ -230,8 +224,8 @@ TEST(Lens, NearFocusTheErrorStaysBelowItsBound) {
     const auto constants = engine::lensConstants(lens, kFovy, 1080, nearPlane);
     const long double scale = 0.5L * 1080 / std::tan(0.5L * kFovy) * engine::apertureRadius(lens);
     const auto coc = static_cast<long double>(cocThroughDepthBuffer(constants, nearPlane, depth));
-    worst = std::max(
-        worst, std::abs(coc - exactCoc(lens, kFovy, 1080, depth)) / (scale / lens.focusDistance * 0x1p-23L));
+    worst =
+        std::max(worst, std::abs(coc - exactCoc(lens, kFovy, 1080, depth)) / (scale / lens.focusDistance * 0x1p-23L));
   }
   EXPECT_LT(worst, 2.0L);
   EXPECT_GT(worst, 0.5L) << "the bound would be idle";
@@ -248,8 +242,7 @@ TEST(Lens, NoExtremeMakesNaNOrInfinity) {
         ASSERT_TRUE(engine::validate(lens).empty());
         const auto constants = engine::lensConstants(lens, kFovy, 16384, nearPlane);
         for (const float z : {0.0f, 1e-38f, 0.5f, 1.0f}) {
-          EXPECT_TRUE(std::isfinite(
-              shared::signedCocRadius(constants, shared::vergenceFromDepthBuffer(constants, z))));
+          EXPECT_TRUE(std::isfinite(shared::signedCocRadius(constants, shared::vergenceFromDepthBuffer(constants, z))));
         }
       }
     }

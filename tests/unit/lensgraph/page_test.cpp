@@ -22,8 +22,7 @@ TEST(PageTemplate, EscapesValues) {
 }
 
 TEST(PageTemplate, RepeatsSectionsAndFindsOuterValues) {
-  EXPECT_EQ(fillTemplate("{{#rows}}{{a}}{{b}};{{/rows}}",
-                         {{"b", "B"}, {"rows", {{{"a", 1}}, {{"a", 2}, {"b", "C"}}}}}),
+  EXPECT_EQ(fillTemplate("{{#rows}}{{a}}{{b}};{{/rows}}", {{"b", "B"}, {"rows", {{{"a", 1}}, {{"a", 2}, {"b", "C"}}}}}),
             "1B;2C;");
 }
 
@@ -47,8 +46,7 @@ TEST(PageTemplate, RefusesMistakes) {
 }
 
 cli::DemoReport report() {
-  cli::DemoScene scene{
-      .id = "street", .name = "A <street>", .reference = "street/reference.png", .results = {}};
+  cli::DemoScene scene{.id = "street", .name = "A <street>", .reference = "street/reference.png", .results = {}};
   scene.width = 480;
   scene.height = 270;
   scene.results.push_back({.technique = "pinhole",
@@ -64,8 +62,8 @@ cli::DemoReport report() {
 
 TEST(DemoPage, ShowsEveryPictureAndNumber) {
   const auto page = cli::demoPage(report());
-  for (const auto* part : {"street/reference.png", "street/pinhole.png", "street/pinhole_error.png", "1.25",
-                           "2.50", "∞", "0.9877", "A &lt;street&gt;", "a &amp; b", "64"}) {
+  for (const auto* part : {"street/reference.png", "street/pinhole.png", "street/pinhole_error.png", "1.25", "2.50",
+                           "∞", "0.9877", "A &lt;street&gt;", "a &amp; b", "64"}) {
     EXPECT_THAT(page, HasSubstr(part));
   }
   EXPECT_THAT(page, Not(HasSubstr("{{")));

@@ -33,8 +33,7 @@ std::vector<passes::LensSample> sobolSamples(const ApertureShape& shape, uint32_
   return passes::lensSamples(shape, LensPattern::sobol, count, true);
 }
 
-double meanOf(const std::vector<passes::LensSample>& samples,
-              const std::function<double(double, double)>& f) {
+double meanOf(const std::vector<passes::LensSample>& samples, const std::function<double(double, double)>& f) {
   double sum = 0.0;
   for (const auto& s : samples) sum += f(static_cast<double>(s.v.x), static_cast<double>(s.v.y));
   return sum / static_cast<double>(samples.size());
@@ -57,10 +56,8 @@ TEST(LensSamples, TheDiscHasTheMomentsOfADisc) {
     EXPECT_NEAR(meanOf(samples, [](double x, double y) { return x * x + y * y; }), 0.5, 2e-3);
     EXPECT_NEAR(meanOf(samples, [](double x, double) { return x * x; }), 0.25, 2e-3);
     EXPECT_NEAR(meanOf(samples, [](double x, double y) { return x * y; }), 0.0, 2e-3);
-    EXPECT_NEAR(meanOf(samples, [](double x, double y) { return std::pow(x * x + y * y, 2); }), 1.0 / 3.0,
-                2e-3);
-    EXPECT_LE(meanOf(samples, [](double x, double y) { return std::hypot(x, y) > 1.0 + 1e-7 ? 1.0 : 0.0; }),
-              0.0);
+    EXPECT_NEAR(meanOf(samples, [](double x, double y) { return std::pow(x * x + y * y, 2); }), 1.0 / 3.0, 2e-3);
+    EXPECT_LE(meanOf(samples, [](double x, double y) { return std::hypot(x, y) > 1.0 + 1e-7 ? 1.0 : 0.0; }), 0.0);
   }
 }
 
@@ -68,8 +65,8 @@ TEST(LensSamples, TheDiscHasTheMomentsOfADisc) {
 TEST(LensSamples, TheDiscIsCoveredEvenly) {
   for (const auto pattern : kPatterns) {
     const auto samples = passes::lensSamples(disc(), pattern, 4096, true);
-    for (const auto& [cx, cy, r] : {std::array{0.0, 0.0, 0.5}, std::array{0.3, -0.4, 0.3},
-                                    std::array{-0.6, 0.1, 0.25}, std::array{0.0, 0.7, 0.2}}) {
+    for (const auto& [cx, cy, r] : {std::array{0.0, 0.0, 0.5}, std::array{0.3, -0.4, 0.3}, std::array{-0.6, 0.1, 0.25},
+                                    std::array{0.0, 0.7, 0.2}}) {
       const auto in = [&](double x, double y) { return std::hypot(x - cx, y - cy) < r ? 1.0 : 0.0; };
       EXPECT_NEAR(meanOf(samples, in), r * r, 6e-3) << static_cast<int>(pattern) << ' ' << cx << ' ' << cy;
     }
@@ -205,8 +202,7 @@ TEST(LensSamples, PolygonsAreFilledAndNotLeft) {
 // The share of samples in a small circle gives the aperture's area: the density is 1/area everywhere inside.
 double areaBySamples(const ApertureShape& shape, double cx, double cy, double r) {
   const auto samples = sobolSamples(shape, 65536);
-  return kPi * r * r /
-         meanOf(samples, [&](double x, double y) { return std::hypot(x - cx, y - cy) < r ? 1.0 : 0.0; });
+  return kPi * r * r / meanOf(samples, [&](double x, double y) { return std::hypot(x - cx, y - cy) < r ? 1.0 : 0.0; });
 }
 
 TEST(LensSamples, CurvedBladesAreArcsThroughTheirCorners) {

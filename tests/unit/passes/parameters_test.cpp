@@ -51,8 +51,7 @@ TEST(Parameters, ADescriptionHoldsTheDefaultsOfTheStruct) {
 }
 
 TEST(Parameters, ASetOverridesWhatItNamesAndNothingElse) {
-  const ParameterSet set = {
-      {"lensSamples", int64_t{7}}, {"pattern", std::string("sobol")}, {"radius", int64_t{3}}};
+  const ParameterSet set = {{"lensSamples", int64_t{7}}, {"pattern", std::string("sobol")}, {"radius", int64_t{3}}};
   EXPECT_TRUE(check(set).empty());
   const auto parameters = passes::fromSet<Parameters>(set, fields());
   EXPECT_EQ(parameters.samples, 7);
@@ -80,16 +79,14 @@ TEST(Parameters, RangesAreInclusiveAndNamedInTheRemedy) {
 }
 
 TEST(Parameters, NumbersMustBeFinite) {
-  EXPECT_THAT(onlyProblem({{"radius", std::numeric_limits<double>::quiet_NaN()}}).reason,
-              HasSubstr("finite"));
+  EXPECT_THAT(onlyProblem({{"radius", std::numeric_limits<double>::quiet_NaN()}}).reason, HasSubstr("finite"));
   EXPECT_THAT(onlyProblem({{"radius", std::numeric_limits<double>::infinity()}}).reason, HasSubstr("finite"));
 }
 
 TEST(Parameters, WrongTypesAreRefused) {
-  for (const ParameterSet& set :
-       {ParameterSet{{"lensSamples", 3.0}}, ParameterSet{{"lensSamples", true}},
-        ParameterSet{{"radius", std::string("3")}}, ParameterSet{{"jitter", int64_t{1}}},
-        ParameterSet{{"pattern", int64_t{1}}}}) {
+  for (const ParameterSet& set : {ParameterSet{{"lensSamples", 3.0}}, ParameterSet{{"lensSamples", true}},
+                                  ParameterSet{{"radius", std::string("3")}}, ParameterSet{{"jitter", int64_t{1}}},
+                                  ParameterSet{{"pattern", int64_t{1}}}}) {
     EXPECT_THAT(onlyProblem(set).reason, HasSubstr("wrong type"));
   }
 }

@@ -73,10 +73,7 @@ std::vector<Snapshot> snapshots() {
        .technique = "accumulation",
        .parameters = twoViews,
        .hasTransparency = true},
-      {.file = "accumulation_no_aperture",
-       .technique = "accumulation",
-       .parameters = twoViews,
-       .cocScale = 0.0f},
+      {.file = "accumulation_no_aperture", .technique = "accumulation", .parameters = twoViews, .cocScale = 0.0f},
       {.file = "two_pass_filter", .technique = "two_pass_filter"},
   };
 }
@@ -84,8 +81,8 @@ std::vector<Snapshot> snapshots() {
 class Declarations : public testing::TestWithParam<Snapshot> {};
 
 TEST_P(Declarations, AreTheSnapshot) {
-  const auto path = std::filesystem::path(LENSGRAPH_SOURCE_DIR) / "tests/unit/passes/snapshots" /
-                    (GetParam().file + ".txt");
+  const auto path =
+      std::filesystem::path(LENSGRAPH_SOURCE_DIR) / "tests/unit/passes/snapshots" / (GetParam().file + ".txt");
   const std::string text = textOf(GetParam());
   EXPECT_EQ(text, textOf(GetParam())) << "a declaration must not depend on anything but its inputs";
   if (std::getenv("LENSGRAPH_UPDATE_SNAPSHOTS") != nullptr) {
@@ -105,8 +102,7 @@ INSTANTIATE_TEST_SUITE_P(Every, Declarations, testing::ValuesIn(snapshots()),
 TEST(Snapshots, ExistForEveryTechnique) {
   const auto all = snapshots();
   for (const auto& technique : passes::techniques()) {
-    EXPECT_TRUE(
-        std::any_of(all.begin(), all.end(), [&](const auto& one) { return one.technique == technique.name; }))
+    EXPECT_TRUE(std::any_of(all.begin(), all.end(), [&](const auto& one) { return one.technique == technique.name; }))
         << technique.name << " has no snapshot";
   }
 }

@@ -74,10 +74,9 @@ TEST(TwoPassFilter, IsRegisteredWithItsParameters) {
 TEST(TwoPassFilter, DeclaresItsNodes) {
   Frame frame;
   const auto outputs = frame.declare();
-  EXPECT_THAT(
-      frame.declaredPasses(),
-      ElementsAre("two_pass_filter.clear_statistics", "two_pass_filter.prepare", "two_pass_filter.tiles",
-                  "two_pass_filter.reach", "two_pass_filter.vertical", "two_pass_filter.horizontal"));
+  EXPECT_THAT(frame.declaredPasses(),
+              ElementsAre("two_pass_filter.clear_statistics", "two_pass_filter.prepare", "two_pass_filter.tiles",
+                          "two_pass_filter.reach", "two_pass_filter.vertical", "two_pass_filter.horizontal"));
   const auto& desc = frame.graph.desc(outputs.color);
   EXPECT_EQ(desc.format, VK_FORMAT_R32G32B32A32_SFLOAT);
   EXPECT_EQ(desc.width, 640u);

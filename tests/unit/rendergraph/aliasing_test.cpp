@@ -82,8 +82,7 @@ void declareWorkload(Graph& graph, Workload workload, uint32_t seed, uint32_t pa
   std::vector<Image> outputs;
   for (uint32_t i = 0; i < passes; ++i) {
     const TextureSize& size = kSizes[random() % std::size(kSizes)];
-    Image image =
-        graph.createImage("texture", {.format = size.format, .width = size.width, .height = size.height});
+    Image image = graph.createImage("texture", {.format = size.format, .width = size.width, .height = size.height});
     Pass pass = graph.addPass("pass", PassKind::compute);
     for (uint32_t input : inputs[i]) pass.sample(outputs[input]);
     outputs.push_back(pass.write(image, Usage::storage));
@@ -94,8 +93,8 @@ void declareWorkload(Graph& graph, Workload workload, uint32_t seed, uint32_t pa
   for (uint32_t i = passes - std::min(passes, 8u); i < passes; ++i) last.sample(outputs[i]);
   Image result = last.write(graph.createImage("result", {.format = VK_FORMAT_R8G8B8A8_UNORM, .width = 8, .height = 8}),
                             Usage::storage);
-  graph.exportImage(result, {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT,
-                             VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL});
+  graph.exportImage(
+      result, {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL});
 }
 
 }  // namespace
@@ -105,8 +104,10 @@ TEST(Aliasing, RandomItemsAreSoundAndNoWorseThanSeparate) {
   for (int round = 0; round < 300; ++round) {
     std::vector<AliasItem> items(1 + random() % 60);
     for (AliasItem& item : items) {
-      item = {.size = 1 + random() % 100000, .alignment = VkDeviceSize{1} << random() % 17,
-              .first = static_cast<uint32_t>(random() % 50), .last = 0};
+      item = {.size = 1 + random() % 100000,
+              .alignment = VkDeviceSize{1} << random() % 17,
+              .first = static_cast<uint32_t>(random() % 50),
+              .last = 0};
       item.last = item.first + static_cast<uint32_t>(random() % 12);
     }
     const Packing packing = packAliased(items);
@@ -118,9 +119,8 @@ TEST(Aliasing, RandomItemsAreSoundAndNoWorseThanSeparate) {
 }
 
 TEST(Aliasing, LargestLiveSumIsExact) {
-  const AliasItem items[] = {{.size = 10, .first = 0, .last = 2},
-                             {.size = 20, .first = 3, .last = 5},
-                             {.size = 5, .first = 2, .last = 3}};
+  const AliasItem items[] = {
+      {.size = 10, .first = 0, .last = 2}, {.size = 20, .first = 3, .last = 5}, {.size = 5, .first = 2, .last = 3}};
   EXPECT_EQ(largestLiveSum(items), 25u);
   EXPECT_EQ(largestLiveSum({}), 0u);
 }
@@ -158,8 +158,8 @@ TEST(Aliasing, PlansOfRandomGraphsShareNoLivingByte) {
       for (const Placement& b : plan.placements) {
         if (&a == &b || a.heap != b.heap) continue;
         const bool bytes = a.offset < b.offset + b.size && b.offset < a.offset + a.size;
-        const bool time = life[a.resource].first <= life[b.resource].second &&
-                          life[b.resource].first <= life[a.resource].second;
+        const bool time =
+            life[a.resource].first <= life[b.resource].second && life[b.resource].first <= life[a.resource].second;
         ASSERT_FALSE(bytes && time) << "seed " << seed;
       }
     }
@@ -176,8 +176,7 @@ TEST(Aliasing, CorpusStaysCloseToTheLowerBound) {
       Graph graph;
       declareWorkload(graph, workload, seed, 100);
       const Plan plan = compile(graph.declaration(), {}, NominalDevice());
-      const double ratio =
-          static_cast<double>(plan.memory.peakBytes) / static_cast<double>(plan.memory.lowerBound);
+      const double ratio = static_cast<double>(plan.memory.peakBytes) / static_cast<double>(plan.memory.lowerBound);
       ASSERT_GE(ratio, 1.0);
       sum += ratio;
       worst = std::max(worst, ratio);

@@ -1,6 +1,4 @@
 // Culling, order, lifetimes, load and store operations, and the purity of compile().
-#include "rendergraph/compiler.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,6 +6,7 @@
 #include <map>
 
 #include "random_graph.h"
+#include "rendergraph/compiler.h"
 #include "rendergraph/declaration.h"
 #include "rendergraph/graph.h"
 
@@ -215,8 +214,7 @@ TEST(Compile, SeveralReadersWaitOnce) {
     for (const ImageBarrier& barrier : pass.before.images) {
       if (barrier.resource != image.resource || barrier.from.stages == 0) continue;
       ++barriers;
-      EXPECT_EQ(barrier.to.stages,
-                VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT);
+      EXPECT_EQ(barrier.to.stages, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT);
     }
   }
   EXPECT_EQ(barriers, 1u);
@@ -228,8 +226,10 @@ namespace {
 struct Fields {
   ImageDesc image{.format = VK_FORMAT_R8G8B8A8_UNORM, .width = 64, .height = 64, .layers = 2, .mips = 2};
   BufferDesc buffer{.size = 64};
-  ImportedImage imported{.image = VK_NULL_HANDLE, .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
-                         .before = kSampled, .after = kSampled};
+  ImportedImage imported{.image = VK_NULL_HANDLE,
+                         .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+                         .before = kSampled,
+                         .after = kSampled};
   ImportedBuffer importedBuffer{.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT};
   AccessState after = kSampled;
   Subresources range = mip(0);

@@ -46,7 +46,9 @@ Chain declareChain(Graph& graph, float clear = 1.0f, uint32_t width = 64) {
   return {half, result};
 }
 
-void expectClean(const FakeBackend& backend) { EXPECT_THAT(backend.mistakes, IsEmpty()); }
+void expectClean(const FakeBackend& backend) {
+  EXPECT_THAT(backend.mistakes, IsEmpty());
+}
 
 Misuse misuseOf(const std::function<void()>& action, std::string* text = nullptr) {
   try {
@@ -283,9 +285,11 @@ TEST(Executor, ImportedImageMayChangeEveryFrame) {
   Executor executor(backend);
   for (uint64_t handle : {11, 12, 11}) {
     Graph graph;
-    Image target = graph.importImage(
-        "target", kDesc,
-        {.image = FakeBackend::as<VkImage>(handle), .usage = VK_IMAGE_USAGE_STORAGE_BIT, .before = {}, .after = kSampled});
+    Image target = graph.importImage("target", kDesc,
+                                     {.image = FakeBackend::as<VkImage>(handle),
+                                      .usage = VK_IMAGE_USAGE_STORAGE_BIT,
+                                      .before = {},
+                                      .after = kSampled});
     Pass pass = graph.addPass("pass", PassKind::compute);
     target = pass.write(target, Usage::storage);
     pass.record([=](PassContext& context) {

@@ -10,10 +10,10 @@
 
 class FakeBackend : public rendergraph::Backend {
  public:
-  std::vector<std::string> log;       ///< Commands and submissions in order.
+  std::vector<std::string> log;  ///< Commands and submissions in order.
   std::vector<VkImageMemoryBarrier2> imageBarriers;
   std::map<uint64_t, std::string> living;  ///< Objects that were made and not destroyed, by id.
-  int failAfter = -1;                 ///< Creations that still succeed; -1: all.
+  int failAfter = -1;                      ///< Creations that still succeed; -1: all.
   bool failSubmit = false;
   uint32_t creations = 0;
 
@@ -95,9 +95,7 @@ class FakeBackend : public rendergraph::Backend {
   void copyBuffer(VkCommandBuffer, VkBuffer, VkBuffer, VkDeviceSize bytes) override {
     log.push_back("copy buffer " + std::to_string(bytes));
   }
-  void fillBuffer(VkCommandBuffer, VkBuffer, uint32_t word) override {
-    log.push_back("fill " + std::to_string(word));
-  }
+  void fillBuffer(VkCommandBuffer, VkBuffer, uint32_t word) override { log.push_back("fill " + std::to_string(word)); }
   void clearImage(VkCommandBuffer, VkImage, const VkClearColorValue&, const VkImageSubresourceRange&) override {
     log.push_back("clear");
   }
@@ -119,9 +117,13 @@ class FakeBackend : public rendergraph::Backend {
     return n;
   }
   template <class T>
-  static T as(uint64_t id) { return reinterpret_cast<T>(id); }
+  static T as(uint64_t id) {
+    return reinterpret_cast<T>(id);
+  }
   template <class T>
-  static uint64_t idOf(T object) { return reinterpret_cast<uint64_t>(object); }
+  static uint64_t idOf(T object) {
+    return reinterpret_cast<uint64_t>(object);
+  }
 
   std::vector<rendergraph::ResolvedBinding> bindings;  ///< Of the latest dispatch or draw.
   std::map<uint64_t, uint64_t> viewed;                 ///< View to image.
@@ -129,8 +131,12 @@ class FakeBackend : public rendergraph::Backend {
 
  private:
   [[noreturn]] static void fail(const char* reason) {
-    throw rendergraph::GraphError({{.misuse = rendergraph::Misuse::device, .pass = {}, .resource = {},
-                                    .reason = reason, .remedy = {}, .where = {}}});
+    throw rendergraph::GraphError({{.misuse = rendergraph::Misuse::device,
+                                    .pass = {},
+                                    .resource = {},
+                                    .reason = reason,
+                                    .remedy = {},
+                                    .where = {}}});
   }
   uint64_t create(const std::string& what) {
     if (failAfter == 0) fail("out of memory");

@@ -2,4 +2,6 @@
 
 #include <gtest/gtest.h>
 
-TEST(Handle, DefaultIsNoResource) { EXPECT_FALSE(rendergraph::Image{}); }
+TEST(Handle, DefaultIsNoResource) {
+  EXPECT_FALSE(rendergraph::Image{});
+}

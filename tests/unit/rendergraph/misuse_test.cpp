@@ -296,8 +296,7 @@ TEST(Misuse, ImportState) {
     pass.sample(target);
   });
   expectProblem(Misuse::importState, "", "target", "pipeline stages", [](Graph& graph) {
-    graph.importImage("target", kColor,
-                      {.before = {0, VK_ACCESS_2_MEMORY_WRITE_BIT, VK_IMAGE_LAYOUT_GENERAL}});
+    graph.importImage("target", kColor, {.before = {0, VK_ACCESS_2_MEMORY_WRITE_BIT, VK_IMAGE_LAYOUT_GENERAL}});
   });
   expectProblem(Misuse::importState, "", "image", "name the layout", [](Graph& graph) {
     Image image = graph.createImage("image", kColor);

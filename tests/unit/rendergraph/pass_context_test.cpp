@@ -70,14 +70,17 @@ TEST(PassContext, RefusesWhatThePassDidNotDeclare) {
   EXPECT_THAT(text, HasSubstr("2D_ARRAY"));
   EXPECT_EQ(misuseInRecording([&](PassContext& c, Image seen, Image, Image) { c.view(seen, mip(5)); }, text),
             Misuse::subresourceRange);
-  EXPECT_EQ(misuseInRecording([&](PassContext& c, Image, Image, Image) { c.image({}); }, text),
-            Misuse::unknownHandle);
-  EXPECT_EQ(misuseInRecording([&](PassContext& c, Image, Image, Image) { c.image({0, 0, 1}); }, text),
+  EXPECT_EQ(misuseInRecording([&](PassContext& c, Image, Image, Image) { c.image({}); }, text), Misuse::unknownHandle);
+  EXPECT_EQ(misuseInRecording(
+                [&](PassContext& c, Image, Image, Image) {
+                  c.image({0, 0, 1});
+                },
+                text),
             Misuse::foreignHandle);
   EXPECT_EQ(misuseInRecording([&](PassContext& c, Image seen, Image out, Image) { c.copyImage(seen, out); }, text),
             Misuse::undeclaredAccess);
-  EXPECT_EQ(misuseInRecording([&](PassContext& c, Image, Image, Image) { c.draw({.program = kRaster, .bindings = {}}); },
-                              text),
+  EXPECT_EQ(misuseInRecording(
+                [&](PassContext& c, Image, Image, Image) { c.draw({.program = kRaster, .bindings = {}}); }, text),
             Misuse::undeclaredAccess);
 }
 

@@ -21,7 +21,7 @@ struct Record {
   bool seen = false;        // A read has seen it.
   bool inherited = false;   // Of another resource in the same memory.
   bool available = false;
-  StageMask stage = 0;      // One bit.
+  StageMask stage = 0;  // One bit.
   VkAccessFlags2 access = 0;
   StageMask ordered = 0;
   Touches visible{};
@@ -81,8 +81,7 @@ class Replay {
   uint32_t lastStep() const { return uses_.back().first; }
 
   /// Runs through time with these barriers; `inherited` are the records of the memory's earlier owners.
-  void run(const std::vector<Placed>& barriers, const std::vector<Record>& inherited,
-           std::vector<Finding>* findings) {
+  void run(const std::vector<Placed>& barriers, const std::vector<Record>& inherited, std::vector<Finding>* findings) {
     findings_ = findings;
     failed_ = false;
     start(inherited);
@@ -161,8 +160,7 @@ class Replay {
     VkImageLayout layout = layoutFor(usages.front());
     for (Usage usage : usages) {
       if (layoutFor(usage) == layout) continue;
-      const bool depth = usage == Usage::depthReadOnly ||
-                         layout == VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL;
+      const bool depth = usage == Usage::depthReadOnly || layout == VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL;
       layout = depth ? VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL : VK_IMAGE_LAYOUT_GENERAL;
     }
     return layout;
@@ -216,7 +214,11 @@ class Replay {
     }
     if (stages == 0 || write) return;
     // Whoever wrote it before has made it visible to the host's reads, and to nothing else as far as we know.
-    Record content{.write = true, .transition = true, .seen = true, .available = true, .ordered = stages,
+    Record content{.write = true,
+                   .transition = true,
+                   .seen = true,
+                   .available = true,
+                   .ordered = stages,
                    .pass = AccessPoint::kOutside};
     for (uint32_t i = 0; i < kStageCount; ++i) content.visible[i] = (stages >> i & 1) != 0 ? access : 0;
     subresource.records.push_back(content);
@@ -244,7 +246,10 @@ class Replay {
     if (!transition) return;
     subresource.layout = barrier.newLayout;
     if (dropping) subresource.hasContent = false;
-    Record written{.write = true, .transition = true, .available = true, .ordered = stageMask(barrier.to.stages),
+    Record written{.write = true,
+                   .transition = true,
+                   .available = true,
+                   .ordered = stageMask(barrier.to.stages),
                    .pass = barrier.to.pass};
     for (uint32_t i = 0; i < kStageCount; ++i) {
       if ((written.ordered >> i & 1) != 0) written.visible[i] = accessMask(barrier.to.access);
@@ -264,8 +269,7 @@ class Replay {
     }
     for (uint32_t i = 0; i < kStageCount; ++i) {
       if ((use.stages >> i & 1) == 0) continue;
-      subresource.records.push_back(
-          {.write = use.writes, .stage = 1u << i, .access = use.touches[i], .pass = pass});
+      subresource.records.push_back({.write = use.writes, .stage = 1u << i, .access = use.touches[i], .pass = pass});
     }
   }
 
@@ -310,8 +314,7 @@ class Replay {
         fail(Hazard::layout, end, "it is not left in the layout that the host asked for");
       }
       if (after.stages == 0) continue;
-      Use use{.layout = subresource.layout, .reads = true,
-              .writes = (accessMask(after.access) & kWrites) != 0};
+      Use use{.layout = subresource.layout, .reads = true, .writes = (accessMask(after.access) & kWrites) != 0};
       use.add(stageMask(after.stages), accessMask(after.access));
       for (Record& record : subresource.records) checkAgainst(record, use, end);
     }
@@ -398,8 +401,7 @@ std::vector<Case> replayAll(const Declaration& declaration, const Plan& plan, st
         }
         const bool exported = declaration.resources[owned.resource].exported;
         if (exported || cases[owned.resource].replay.lastStep() >= cases[i].replay.firstStep()) {
-          findings.push_back({Hazard::alias, "'" + std::string(declaration.resources[i].name) +
-                                                 "' overlaps living '" +
+          findings.push_back({Hazard::alias, "'" + std::string(declaration.resources[i].name) + "' overlaps living '" +
                                                  std::string(declaration.resources[owned.resource].name) + "'"});
         }
         for (const Record& record : cases[owned.resource].replay.remaining()) {
@@ -476,8 +478,10 @@ Superfluous findSuperfluous(const Declaration& declaration, const Plan& plan) {
     for (std::size_t i = 0; i < c.barriers.size(); ++i) {
       for (const auto& [what, changed] : weakenings(c.barriers[i].barrier, declaration.resources[resource].isImage)) {
         std::vector<Placed> barriers = c.barriers;
-        if (changed) barriers[i].barrier = *changed;
-        else barriers.erase(barriers.begin() + static_cast<std::ptrdiff_t>(i));
+        if (changed)
+          barriers[i].barrier = *changed;
+        else
+          barriers.erase(barriers.begin() + static_cast<std::ptrdiff_t>(i));
         c.replay.run(barriers, c.inherited, nullptr);
         ++result.attempts;
         if (c.replay.failed()) continue;

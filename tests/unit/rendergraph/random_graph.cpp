@@ -62,8 +62,8 @@ class Generator {
     known.depth = chance(20);
     known.mips = chance(40) ? 1 + below(4) : 1;
     known.layers = chance(30) ? 1 + below(3) : 1;
-    ImageDesc desc{.format = VK_FORMAT_R16G16B16A16_SFLOAT, .width = 64, .height = 64, .layers = known.layers,
-                   .mips = known.mips};
+    ImageDesc desc{
+        .format = VK_FORMAT_R16G16B16A16_SFLOAT, .width = 64, .height = 64, .layers = known.layers, .mips = known.mips};
     if (known.depth) desc.format = chance(30) ? VK_FORMAT_D24_UNORM_S8_UINT : VK_FORMAT_D32_SFLOAT;
     bool written = true;
     switch (below(12)) {
@@ -263,8 +263,8 @@ class Generator {
                                                Usage::index};
       return pass.read(known.buffer, kReads[below(kind == PassKind::raster ? 5 : 3)]);
     }
-    known.buffer = written && chance(50) ? pass.modify(known.buffer, Usage::storage)
-                                         : pass.write(known.buffer, Usage::storage);
+    known.buffer =
+        written && chance(50) ? pass.modify(known.buffer, Usage::storage) : pass.write(known.buffer, Usage::storage);
     known.written[0] = true;
   }
 
@@ -294,4 +294,6 @@ class Generator {
 
 }  // namespace
 
-void declareRandom(Graph& graph, uint32_t seed, uint32_t passes) { Generator(graph, seed).run(passes); }
+void declareRandom(Graph& graph, uint32_t seed, uint32_t passes) {
+  Generator(graph, seed).run(passes);
+}

@@ -7,13 +7,18 @@ using namespace rendergraph;
 
 namespace {
 
-constexpr std::array<VkPipelineStageFlags2, kStageCount> kStages = {
-    VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,        VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT,
-    VK_PIPELINE_STAGE_2_VERTEX_ATTRIBUTE_INPUT_BIT, VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT,
-    VK_PIPELINE_STAGE_2_GEOMETRY_SHADER_BIT,      VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
-    VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT, VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
-    VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-    VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,         VK_PIPELINE_STAGE_2_HOST_BIT};
+constexpr std::array<VkPipelineStageFlags2, kStageCount> kStages = {VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
+                                                                    VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT,
+                                                                    VK_PIPELINE_STAGE_2_VERTEX_ATTRIBUTE_INPUT_BIT,
+                                                                    VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT,
+                                                                    VK_PIPELINE_STAGE_2_GEOMETRY_SHADER_BIT,
+                                                                    VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
+                                                                    VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT,
+                                                                    VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
+                                                                    VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
+                                                                    VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                                                                    VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
+                                                                    VK_PIPELINE_STAGE_2_HOST_BIT};
 
 }  // namespace
 
@@ -33,13 +38,20 @@ VkAccessFlags2 accessMask(VkAccessFlags2 access) {
 
 VkImageLayout layoutFor(Usage usage) {
   switch (usage) {
-    case Usage::sampled: return VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-    case Usage::colorAttachment: return VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
-    case Usage::depthAttachment: return VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
-    case Usage::depthReadOnly: return VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL;
-    case Usage::transferSource: return VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
-    case Usage::transferDestination: return VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
-    default: return VK_IMAGE_LAYOUT_GENERAL;
+    case Usage::sampled:
+      return VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    case Usage::colorAttachment:
+      return VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+    case Usage::depthAttachment:
+      return VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
+    case Usage::depthReadOnly:
+      return VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL;
+    case Usage::transferSource:
+      return VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
+    case Usage::transferDestination:
+      return VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
+    default:
+      return VK_IMAGE_LAYOUT_GENERAL;
   }
 }
 
@@ -49,7 +61,9 @@ void addAccess(Use& use, const DeclaredAccess& access) {
     use.add(stageMask(stages), (reads ? read : 0) | (writes ? write : 0));
   };
   switch (access.usage) {
-    case Usage::sampled: touch(access.stages, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, 0); break;
+    case Usage::sampled:
+      touch(access.stages, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, 0);
+      break;
     case Usage::storage:
       touch(access.stages, VK_ACCESS_2_SHADER_STORAGE_READ_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
       break;
@@ -67,17 +81,20 @@ void addAccess(Use& use, const DeclaredAccess& access) {
     case Usage::transferDestination:
       // A partial transfer write keeps the rest without reading it.
       touch(VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
-            access.usage == Usage::transferSource ? VK_ACCESS_2_TRANSFER_READ_BIT : 0,
-            VK_ACCESS_2_TRANSFER_WRITE_BIT);
+            access.usage == Usage::transferSource ? VK_ACCESS_2_TRANSFER_READ_BIT : 0, VK_ACCESS_2_TRANSFER_WRITE_BIT);
       break;
-    case Usage::uniform: touch(access.stages, VK_ACCESS_2_UNIFORM_READ_BIT, 0); break;
+    case Usage::uniform:
+      touch(access.stages, VK_ACCESS_2_UNIFORM_READ_BIT, 0);
+      break;
     case Usage::indirect:
       touch(VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT, 0);
       break;
     case Usage::vertex:
       touch(VK_PIPELINE_STAGE_2_VERTEX_ATTRIBUTE_INPUT_BIT, VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT, 0);
       break;
-    case Usage::index: touch(VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT, VK_ACCESS_2_INDEX_READ_BIT, 0); break;
+    case Usage::index:
+      touch(VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT, VK_ACCESS_2_INDEX_READ_BIT, 0);
+      break;
     case Usage::host:
       touch(VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT, VK_ACCESS_2_HOST_WRITE_BIT);
       break;
