@@ -2,6 +2,7 @@
 #include "samples/host/renderer.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -75,6 +76,19 @@ void add(shared::FrameStatistics& total, const shared::FrameStatistics& frame) {
 /// Vergence of a depth picture's sample; what is not a positive depth is infinitely far.
 float vergenceOf(float depth) {
   return depth > 0.0f && depth < kNothingHit ? 1.0f / depth : 0.0f;
+}
+
+/// Opaque black for every pixel of an RGBA picture that is not finite; how many there were. At the input, so that a
+/// technique that hands its input through (no aperture) gives finite pictures too.
+uint32_t replaceNonFinite(engine::FloatImage& picture) {
+  uint32_t replaced = 0;
+  for (std::size_t i = 0; i < picture.samples.size(); i += 4) {
+    const auto texel = std::span(picture.samples).subspan(i, 4);
+    if (std::ranges::all_of(texel, [](float value) { return std::isfinite(value); })) continue;
+    std::ranges::copy(std::array{0.0f, 0.0f, 0.0f, 1.0f}, texel.begin());
+    ++replaced;
+  }
+  return replaced;
 }
 
 std::optional<engine::Environment> loadEnvironment(const Shot& shot) {
@@ -268,7 +282,9 @@ Rendering Renderer::apply(const engine::FloatImage& color, const engine::FloatIm
   };
   engine::FloatImage vergence = depth;
   for (float& sample : vergence.samples) sample = vergenceOf(sample);
-  const auto colorImage = upload(VK_FORMAT_R32G32B32A32_SFLOAT, withOpaqueAlpha(color), "color");
+  engine::FloatImage finite = withOpaqueAlpha(color);
+  const uint32_t replaced = replaceNonFinite(finite);
+  const auto colorImage = upload(VK_FORMAT_R32G32B32A32_SFLOAT, finite, "color");
   const auto depthImage = upload(VK_FORMAT_R32_SFLOAT, vergence, "vergence");
 
   DofInputs inputs;
@@ -290,12 +306,14 @@ Rendering Renderer::apply(const engine::FloatImage& color, const engine::FloatIm
                               .before = kRest,
                               .after = kRest});
   };
-  return state_->run(technique, inputs, options, [&](Graph& graph, uint32_t) {
+  auto rendering = state_->run(technique, inputs, options, [&](Graph& graph, uint32_t) {
     DofInputs now = inputs;
     now.color = import(graph, colorImage, "color");
     now.depth = import(graph, depthImage, "vergence");
     return state_->declareTechnique(graph, now, technique, options);
   });
+  rendering.statistics.replacedTexels += replaced;
+  return rendering;
 }
 
 }  // namespace host

@@ -95,4 +95,24 @@ TEST_P(Laws, SameBitsRunToRun) {
 
 INSTANTIATE_TEST_SUITE_P(Every, Laws, testing::ValuesIn(techniqueNames()), [](const auto& info) { return info.param; });
 
+class LawsOfApply : public support::GpuTest, public testing::WithParamInterface<double> {};
+
+TEST_P(LawsOfApply, BrokenPixelsOfAPictureDoNotComeOut) {
+  engine::FloatImage color(33, 17, 3, 0.5f), depth(33, 17, 1, 4.0f);
+  color.pixel(7, 5)[1] = std::numeric_limits<float>::quiet_NaN();
+  color.pixel(20, 3)[0] = std::numeric_limits<float>::infinity();
+  engine::Lens lens;
+  lens.apertureRadius = GetParam();
+  lens.focusDistance = 2.0;
+  host::Renderer renderer(support::device());
+  host::RenderOptions options;
+  options.technique = "two_pass_filter";
+  const auto rendering = renderer.apply(color, depth, 40.0, lens, options);
+  EXPECT_EQ(support::nonFiniteCount(rendering.color), 0u);
+  EXPECT_EQ(rendering.statistics.replacedTexels, 2u);
+  EXPECT_NEAR(rendering.color.pixel(28, 14)[2], 0.5f, 1e-4f);
+}
+
+INSTANTIATE_TEST_SUITE_P(Apertures, LawsOfApply, testing::Values(0.0, 0.05));
+
 }  // namespace
