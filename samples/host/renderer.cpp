@@ -68,6 +68,7 @@ struct FrameOutputs {
 
 void add(shared::FrameStatistics& total, const shared::FrameStatistics& frame) {
   total.replacedTexels += frame.replacedTexels;
+  total.transparentUnsorted += frame.transparentUnsorted;
   total.clampedCoc = std::max(total.clampedCoc, frame.clampedCoc);
   total.transparentNodes = std::max(total.transparentNodes, frame.transparentNodes);
   total.transparentDropped = std::max(total.transparentDropped, frame.transparentDropped);

@@ -67,6 +67,7 @@ json captureJson(const engine::DeviceDescription& device, const CaptureInput& in
        {{"replacedTexels", statistics.replacedTexels},
         {"transparentNodes", statistics.transparentNodes},
         {"transparentDropped", statistics.transparentDropped},
+        {"transparentUnsorted", statistics.transparentUnsorted},
         {"clampedCoc", statistics.clampedCoc}}},
       {"graph", json::parse(graph)},
   };

@@ -67,6 +67,10 @@ void printSummary(const engine::DeviceDescription& device, const host::Technique
   if (rendering.statistics.clampedCoc > 0) {
     spdlog::warn("lens.maxCocRadius limited the blur of {} pixels", rendering.statistics.clampedCoc);
   }
+  if (rendering.statistics.transparentUnsorted > 0) {
+    spdlog::warn("{} pixels have too many alpha-blended layers: the nearest ones are missing there",
+                 rendering.statistics.transparentUnsorted);
+  }
   if (rendering.statistics.transparentDropped > 0) {
     spdlog::warn("{} transparent fragments found no room: the picture is incomplete",
                  rendering.statistics.transparentDropped);

@@ -40,7 +40,7 @@ void main() {
   bool first = true;
   // A device may end loops after 65 535 iterations; the budget ends the walk before, over both loops.
   uint budget = kTransparencyBudget;
-  while (budget > 0u) {
+  for (;;) {
     TransparentNode best;
     uint copies = 0u;  // nodes equal in every bit stand at one place of the order
     for (uint i = head; i != 0u && budget > 0u; --budget) {
@@ -53,6 +53,10 @@ void main() {
       } else if (!precedes(best, node)) {
         ++copies;
       }
+    }
+    if (budget == 0u) {  // This walk may be incomplete: its find is not to be trusted.
+      atomicAdd(statistics.transparentUnsorted, 1u);
+      break;
     }
     if (copies == 0u) break;
     // The same fragment `copies` times over: transmittance (1 - a)^copies.

@@ -86,4 +86,18 @@ TEST_F(Transparency, EqualFragmentsAtEqualDepthAllCount) {
               over(pane, over(pane, over(pane, glm::vec3(1.0f, 0.0f, 0.0f)))));
 }
 
+TEST_F(Transparency, ListsTooLongToSortAreCounted) {
+  constexpr int kSide = 8;
+  for (const int layers : {200, 300}) {
+    engine::Scene scene;
+    for (int i = 0; i < layers; ++i) {
+      support::addFacingQuad(scene, 3.0 + 0.01 * i, 0.0, 0.0, 9.0, 9.0,
+                             support::addMaterial(scene, {0.001f * i, 0.5f, 0.5f, 0.01f}));
+    }
+    host::Renderer renderer(support::device(), scene, std::nullopt);
+    const auto rendering = render(renderer, support::smallShot(kSide, kSide), "pinhole");
+    EXPECT_EQ(rendering.statistics.transparentUnsorted, layers == 200 ? 0u : uint32_t{kSide * kSide}) << layers;
+  }
+}
+
 }  // namespace
