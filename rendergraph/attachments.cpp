@@ -36,6 +36,12 @@ VkAttachmentLoadOp loadOpOf(LoadOp load) {
   return VK_ATTACHMENT_LOAD_OP_LOAD;
 }
 
+Run append(std::vector<PlannedAttachment>& all, const std::vector<PlannedAttachment>& some) {
+  const Run run{static_cast<uint32_t>(all.size()), static_cast<uint32_t>(some.size())};
+  all.insert(all.end(), some.begin(), some.end());
+  return run;
+}
+
 }  // namespace
 
 void planAttachments(const Declaration& declaration, const Cells& cells, const Timeline& timeline, Plan& plan) {
@@ -45,6 +51,7 @@ void planAttachments(const Declaration& declaration, const Cells& cells, const T
     if (pass.kind != PassKind::raster) continue;
     planned.renderArea = pass.renderArea;
     planned.renderLayers = pass.renderLayers;
+    std::vector<PlannedAttachment> colors, depths;
     for (uint32_t index = pass.firstAccess; index != kNone; index = declaration.accesses[index].nextOfPass) {
       const DeclaredAccess& access = declaration.accesses[index];
       if (access.role == AttachmentRole::none) continue;
@@ -58,8 +65,10 @@ void planAttachments(const Declaration& declaration, const Cells& cells, const T
       } else if (!readLater(declaration, cells, timeline, index, step)) {
         attachment.store = VK_ATTACHMENT_STORE_OP_DONT_CARE;
       }
-      (access.role == AttachmentRole::color ? planned.colors : planned.depth).push_back(attachment);
+      (access.role == AttachmentRole::color ? colors : depths).push_back(attachment);
     }
+    planned.colors = append(plan.attachments, colors);
+    planned.depth = append(plan.attachments, depths);
   }
 }
 

@@ -15,6 +15,7 @@
 // same stages: layered validation reasons per resource, and within a batch the extra entry waits for nothing new.
 #include "rendergraph/barriers.h"
 
+#include <algorithm>
 #include <array>
 
 #include "rendergraph/access.h"
@@ -153,8 +154,7 @@ class BarrierPlanner {
   void run() {
     findOccupants();
     for (uint32_t resource = 0; resource < declaration_.resources.size(); ++resource) planResource(resource);
-    for (PlannedPass& pass : plan_.passes) plan_.barrierBatches += !pass.before.empty();
-    plan_.barrierBatches += !plan_.after.empty();
+    emit();
   }
 
  private:
@@ -193,16 +193,30 @@ class BarrierPlanner {
       planCell(resource, cell, start);
     }
     mergeRanges(found_);
-    for (const PlacedBarrier& placed : found_) {
-      BarrierBatch& batch = placed.step < plan_.passes.size() ? plan_.passes[placed.step].before : plan_.after;
-      if (declaration_.resources[resource].isImage) {
-        batch.images.push_back(placed.barrier);
-      } else {
-        batch.buffers.push_back({.resource = resource,
-                                 .from = placed.barrier.from,
-                                 .to = placed.barrier.to,
-                                 .reason = placed.barrier.reason});
+    all_.insert(all_.end(), found_.begin(), found_.end());
+  }
+
+  /// Gives every batch its run of barriers.
+  void emit() {
+    std::stable_sort(all_.begin(), all_.end(),
+                     [](const PlacedBarrier& a, const PlacedBarrier& b) { return a.step < b.step; });
+    std::size_t next = 0;
+    for (uint32_t step = 0; step <= plan_.passes.size(); ++step) {
+      BarrierBatch& batch = step < plan_.passes.size() ? plan_.passes[step].before : plan_.submissions.back().atEnd;
+      batch.images.first = static_cast<uint32_t>(plan_.imageBarriers.size());
+      batch.buffers.first = static_cast<uint32_t>(plan_.bufferBarriers.size());
+      for (; next < all_.size() && all_[next].step == step; ++next) {
+        const ImageBarrier& barrier = all_[next].barrier;
+        if (declaration_.resources[barrier.resource].isImage) {
+          plan_.imageBarriers.push_back(barrier);
+          ++batch.images.count;
+        } else {
+          plan_.bufferBarriers.push_back(
+              {.resource = barrier.resource, .from = barrier.from, .to = barrier.to, .reason = barrier.reason});
+          ++batch.buffers.count;
+        }
       }
+      plan_.barrierBatches += !batch.empty();
     }
   }
 
@@ -345,6 +359,7 @@ class BarrierPlanner {
   std::vector<std::vector<uint32_t>> occupants_;  // By resource: who had its memory before.
   std::vector<CellUse> uses_;                     // Of the current cell.
   std::vector<PlacedBarrier> found_;              // Of the current resource.
+  std::vector<PlacedBarrier> all_;
 };
 
 }  // namespace

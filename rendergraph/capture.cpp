@@ -34,8 +34,8 @@ bool countedBefore(const Declaration& declaration, const DeclaredAccess& access,
 CapturedPass countsOf(const Declaration& declaration, const PlannedPass& planned) {
   CapturedPass pass;
   pass.name = declaration.passes[planned.pass].name;
-  pass.imageBarriers = static_cast<uint32_t>(planned.before.images.size());
-  pass.bufferBarriers = static_cast<uint32_t>(planned.before.buffers.size());
+  pass.imageBarriers = static_cast<uint32_t>(planned.before.images.count);
+  pass.bufferBarriers = static_cast<uint32_t>(planned.before.buffers.count);
   for (const DeclaredAccess& access : declaration.accessesOfPass(planned.pass)) {
     const DeclaredResource& resource = declaration.resources[access.resource];
     const VkDeviceSize bytes = bytesOfAccess(resource, access);

@@ -160,6 +160,17 @@ void packHeaps(const Declaration& declaration, const std::vector<ResourceUse>& u
   plan.memory.lowerBound = largestLiveSum(all);
 }
 
+/// One queue: a submission ends after each host pass and at the end of the frame.
+void addSubmissions(const Declaration& declaration, Plan& plan) {
+  uint32_t first = 0;
+  for (uint32_t step = 0; step < plan.passes.size(); ++step) {
+    if (declaration.passes[plan.passes[step].pass].kind != PassKind::host) continue;
+    plan.submissions.push_back({.steps = {first, step + 1 - first}});
+    first = step + 1;
+  }
+  plan.submissions.push_back({.steps = {first, static_cast<uint32_t>(plan.passes.size()) - first}});
+}
+
 }  // namespace
 
 Plan compile(const Declaration& declaration, const CompileOptions& options, const DeviceFacts& device) {
@@ -182,6 +193,7 @@ Plan compile(const Declaration& declaration, const CompileOptions& options, cons
   plan.culled = std::move(culling.culled);
   plan.passes.resize(order.size());
   for (uint32_t step = 0; step < order.size(); ++step) plan.passes[step].pass = order[step];
+  addSubmissions(declaration, plan);
   addPlacements(declaration, uses, plan);
   packHeaps(declaration, uses, options.aliasing, plan);
   const Timeline timeline(declaration, cells, order);

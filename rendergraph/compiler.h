@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "rendergraph/plan.h"
 #include "rendergraph/resource.h"
@@ -14,7 +15,16 @@ struct MemoryRequirements {
   VkDeviceSize size = 0;
   VkDeviceSize alignment = 1;
   uint32_t memoryTypeBits = UINT32_MAX;
+  bool dedicated = false;  ///< The device wants an allocation for this resource alone; it is never aliased.
   bool operator==(const MemoryRequirements&) const = default;
+};
+
+/// One queue of a device. Every queue can transfer.
+struct QueueFacts {
+  uint32_t family = 0;  ///< Between queues of one family no ownership is transferred.
+  bool graphics = true;
+  bool compute = true;
+  bool operator==(const QueueFacts&) const = default;
 };
 
 /// What compile() must know of a device. Pure: the same question always gets the same answer.
@@ -24,6 +34,9 @@ class DeviceFacts {
   virtual uint32_t maxImageSize() const { return 16384; }  ///< px.
   virtual uint32_t maxImageLayers() const { return 2048; }
   virtual VkDeviceSize maxBufferSize() const { return VkDeviceSize{1} << 31; }
+  /// The queues that a plan may use, at least one. The first does graphics, compute and transfer; it takes what no
+  /// other queue can do or nothing prefers elsewhere.
+  virtual std::span<const QueueFacts> queues() const;
   virtual MemoryRequirements requirements(const ImageDesc& desc, VkImageUsageFlags usage) const = 0;
   virtual MemoryRequirements requirements(const BufferDesc& desc, VkBufferUsageFlags usage) const = 0;
 };
@@ -41,8 +54,25 @@ enum class Order : uint8_t {
   mostOverlap,  ///< Dependent passes far apart, so that barriers wait for nothing.
 };
 
+/// Where a barrier stands between the two uses that it separates.
+enum class BarrierPlacement : uint8_t {
+  beforeUse,      ///< As late as possible, so that it waits for as little as possible.
+  fewestBatches,  ///< Together with others wherever that is allowed: the smallest number of batches for the order.
+};
+
 struct CompileOptions {
   Order order = Order::declared;
+  BarrierPlacement barriers = BarrierPlacement::beforeUse;
+  /// Barriers whose sides have at least this many steps between them are split into an event that is set and one
+  /// that is waited for, so that what lies between fills the wait; 0: none is split.
+  uint32_t splitDistance = 0;
+  /// Adjacent raster passes with the same attachments share one rendering.
+  bool mergeRasterPasses = true;
+  /// Passes run on the queues that they prefer; off: all on the first one.
+  bool useQueues = true;
+  /// The device may begin a frame before it has finished the one before: first uses wait for the last uses of the
+  /// same memory in the frame before. Needed when several frames are in flight; off, the host waits in between.
+  bool overlappingFrames = false;
   bool aliasing = true;  ///< Off: every resource has its own memory (to measure what aliasing saves).
   bool operator==(const CompileOptions&) const = default;
 };

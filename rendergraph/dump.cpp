@@ -56,6 +56,10 @@ std::string_view nameOf(BarrierReason reason) {
       return "layout";
     case BarrierReason::alias:
       return "alias";
+    case BarrierReason::release:
+      return "release";
+    case BarrierReason::acquire:
+      return "acquire";
   }
   return "?";
 }
@@ -118,13 +122,14 @@ class Words {
   const Declaration& declaration_;
 };
 
-void writeBatch(std::ostream& out, const Words& words, const BarrierBatch& batch, std::string_view indent) {
-  for (const ImageBarrier& barrier : batch.images) {
+void writeBatch(std::ostream& out, const Words& words, const Plan& plan, const BarrierBatch& batch,
+                std::string_view indent) {
+  for (const ImageBarrier& barrier : plan.imagesOf(batch)) {
     out << indent << "barrier " << words.resource(barrier.resource) << words.range(barrier.resource, barrier.range)
         << ": " << words.dependency(barrier.from, barrier.to) << ", " << layoutName(barrier.oldLayout) << " -> "
         << layoutName(barrier.newLayout) << " (" << nameOf(barrier.reason) << ")\n";
   }
-  for (const BufferBarrier& barrier : batch.buffers) {
+  for (const BufferBarrier& barrier : plan.buffersOf(batch)) {
     out << indent << "barrier " << words.resource(barrier.resource) << ": "
         << words.dependency(barrier.from, barrier.to) << " (" << nameOf(barrier.reason) << ")\n";
   }
@@ -150,10 +155,10 @@ void writeBarrierJson(std::ostream& out, const Words& words, const Barrier& barr
   writePoint(out, words, barrier.to);
 }
 
-void writeBatchJson(std::ostream& out, const Words& words, const BarrierBatch& batch) {
+void writeBatchJson(std::ostream& out, const Words& words, const Plan& plan, const BarrierBatch& batch) {
   out << "[";
   const char* separator = "";
-  for (const ImageBarrier& barrier : batch.images) {
+  for (const ImageBarrier& barrier : plan.imagesOf(batch)) {
     out << separator;
     writeBarrierJson(out, words, barrier);
     const Subresources& range = barrier.range;
@@ -162,7 +167,7 @@ void writeBatchJson(std::ostream& out, const Words& words, const BarrierBatch& b
         << ", \"newLayout\": " << jsonString(layoutName(barrier.newLayout)) << "}";
     separator = ", ";
   }
-  for (const BufferBarrier& barrier : batch.buffers) {
+  for (const BufferBarrier& barrier : plan.buffersOf(batch)) {
     out << separator;
     writeBarrierJson(out, words, barrier);
     out << "}";
@@ -206,12 +211,12 @@ void writePassesJson(std::ostream& out, const Words& words, const Plan& plan) {
       comma = ", ";
     }
     out << "], \"barriers\": ";
-    writeBatchJson(out, words, planned.before);
+    writeBatchJson(out, words, plan, planned.before);
     out << "}";
     separator = ",\n";
   }
   out << "\n  ],\n  \"after\": ";
-  writeBatchJson(out, words, plan.after);
+  writeBatchJson(out, words, plan, plan.submissions.back().atEnd);
   out << ",\n  \"culled\": [";
   separator = "\n";
   for (const CulledPass& culled : plan.culled) {
@@ -295,13 +300,13 @@ void writeText(std::ostream& out, const Graph& graph, const Plan& plan) {
       separator = ", ";
     }
     out << "\n";
-    writeBatch(out, words, planned.before, "  ");
-    for (const PlannedAttachment& attachment : planned.colors) writeAttachment(out, words, attachment);
-    for (const PlannedAttachment& attachment : planned.depth) writeAttachment(out, words, attachment);
+    writeBatch(out, words, plan, planned.before, "  ");
+    for (const PlannedAttachment& attachment : plan.colorsOf(planned)) writeAttachment(out, words, attachment);
+    for (const PlannedAttachment& attachment : plan.depthOf(planned)) writeAttachment(out, words, attachment);
   }
-  if (!plan.after.empty()) {
+  if (!plan.submissions.back().atEnd.empty()) {
     out << "after\n";
-    writeBatch(out, words, plan.after, "  ");
+    writeBatch(out, words, plan, plan.submissions.back().atEnd, "  ");
   }
   for (const CulledPass& culled : plan.culled) {
     out << "culled " << words.pass(culled.pass) << ": " << culled.reason << "\n";

@@ -51,7 +51,7 @@ void Frame::recordBarriers(const BarrierBatch& batch) {
   if (batch.empty()) return;
   imageBarriers_.clear();
   bufferBarriers_.clear();
-  for (const ImageBarrier& barrier : batch.images) {
+  for (const ImageBarrier& barrier : state_.current->plan.imagesOf(batch)) {
     VkImageMemoryBarrier2 image{};
     image.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2;
     image.srcStageMask = barrier.from.stages;
@@ -66,7 +66,7 @@ void Frame::recordBarriers(const BarrierBatch& batch) {
                               barrier.range.firstLayer, barrier.range.layerCount};
     imageBarriers_.push_back(image);
   }
-  for (const BufferBarrier& barrier : batch.buffers) {
+  for (const BufferBarrier& barrier : state_.current->plan.buffersOf(batch)) {
     VkBufferMemoryBarrier2 buffer{};
     buffer.sType = VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2;
     buffer.srcStageMask = barrier.from.stages;
@@ -107,9 +107,10 @@ void Frame::beginRendering(const PlannedPass& planned) {
     return info;
   };
   std::vector<VkRenderingAttachmentInfo> colors;
-  for (std::size_t i = 0; i < planned.colors.size(); ++i) {
-    colors.push_back(infoOf(planned.colors[i], colorClears[i]));
-    state_.colorFormats.push_back(declaration.resources[planned.colors[i].resource].image.format);
+  const std::span<const PlannedAttachment> plannedColors = state_.current->plan.colorsOf(planned);
+  for (std::size_t i = 0; i < plannedColors.size(); ++i) {
+    colors.push_back(infoOf(plannedColors[i], colorClears[i]));
+    state_.colorFormats.push_back(declaration.resources[plannedColors[i].resource].image.format);
   }
   VkRenderingInfo rendering{};
   rendering.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
@@ -118,9 +119,9 @@ void Frame::beginRendering(const PlannedPass& planned) {
   rendering.colorAttachmentCount = static_cast<uint32_t>(colors.size());
   rendering.pColorAttachments = colors.data();
   VkRenderingAttachmentInfo depth;
-  if (!planned.depth.empty()) {
-    depth = infoOf(planned.depth.front(), depthClears.front());
-    state_.depthFormat = declaration.resources[planned.depth.front().resource].image.format;
+  for (const PlannedAttachment& attachment : state_.current->plan.depthOf(planned)) {
+    depth = infoOf(attachment, depthClears.front());
+    state_.depthFormat = declaration.resources[attachment.resource].image.format;
     rendering.pDepthAttachment = &depth;
   }
   state_.backend.beginRendering(commands_, rendering);
@@ -185,7 +186,7 @@ void Frame::execute() {
     state_.capture.frameGpuMs = std::max(0.0, state_.capture.frameGpuMs) + ms;
   }
   open();
-  recordBarriers(plan.after);
+  recordBarriers(plan.submissions.back().atEnd);
   submit();
 }
 
@@ -201,7 +202,7 @@ void Frame::record(VkCommandBuffer commands) {
   commands_ = commands;
   state_.retained.recordStart(commands_);
   for (uint32_t step = 0; step < plan.passes.size(); ++step) recordPass(step);
-  recordBarriers(plan.after);
+  recordBarriers(plan.submissions.back().atEnd);
 }
 
 }  // namespace rendergraph

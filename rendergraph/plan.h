@@ -1,12 +1,25 @@
 // The result of compiling a declaration: plain data, equal for equal input, printable, testable without a device.
 //
-// Indices refer to the declaration (resources, passes). Nothing here is a Vulkan object.
+// Indices refer to the declaration (resources, passes) or to the plan's own arrays. Nothing here is a Vulkan object.
+// What belongs to one pass lies in runs of the plan's arrays, so that a plan is a handful of allocations.
+//
+// How a plan is carried out. The submissions are given to their queues in the order of the list. Each one waits for
+// the submissions it names, at the stages it names; then it executes its steps one after the other, and its `atEnd`
+// barriers last. One step is:
+//   1. the events that it waits for (vkCmdWaitEvents2), one after the other;
+//   2. the batch `before` (one vkCmdPipelineBarrier2);
+//   3. the pass itself; a raster pass begins its rendering unless it continues that of the step before, and ends it
+//      unless the next step continues it;
+//   4. the events to set (vkCmdSetEvent2).
+// A host pass is the last step of its submission: after 2. the submission is given to the queue, the host waits for
+// it, and runs the pass before it gives the next submission to any queue.
 #pragma once
 
 #include <vulkan/vulkan_core.h>
 
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,14 +30,25 @@ namespace rendergraph {
 /// A use of a resource that a barrier waits for, or that waits for it.
 struct AccessPoint {
   static constexpr uint32_t kOutside = std::numeric_limits<uint32_t>::max();
-  uint32_t pass = kOutside;  ///< kOutside: the host, before or after the graph.
+  uint32_t pass = kOutside;  ///< kOutside: the host before or after the graph, or the frame before this one.
   VkPipelineStageFlags2 stages = 0;
   VkAccessFlags2 access = 0;
   bool operator==(const AccessPoint&) const = default;
 };
 
 /// Why a barrier is there.
-enum class BarrierReason : uint8_t { readAfterWrite, writeAfterRead, writeAfterWrite, layout, alias };
+enum class BarrierReason : uint8_t {
+  readAfterWrite,
+  writeAfterRead,
+  writeAfterWrite,
+  layout,   ///< Only the layout changes.
+  alias,    ///< Another resource had the memory before, in this frame or the one before it.
+  release,  ///< First half of a transfer of ownership to another queue family; no later use on this queue.
+  acquire,  ///< Second half of it, with the same layouts.
+};
+
+/// Marks a barrier that leaves the ownership as it is.
+inline constexpr uint32_t kSameQueue = std::numeric_limits<uint32_t>::max();
 
 /// `to` covers every use that the barrier serves: a run of reads by several passes waits once, before the first.
 struct ImageBarrier {
@@ -33,6 +57,8 @@ struct ImageBarrier {
   AccessPoint from = {}, to = {};
   VkImageLayout oldLayout = VK_IMAGE_LAYOUT_UNDEFINED;
   VkImageLayout newLayout = VK_IMAGE_LAYOUT_UNDEFINED;
+  uint32_t fromQueue = kSameQueue;  ///< Release and acquire: index among the device's queues.
+  uint32_t toQueue = kSameQueue;
   BarrierReason reason = BarrierReason::layout;
   bool operator==(const ImageBarrier&) const = default;
 };
@@ -40,24 +66,40 @@ struct ImageBarrier {
 struct BufferBarrier {
   uint32_t resource = 0;
   AccessPoint from = {}, to = {};
+  uint32_t fromQueue = kSameQueue, toQueue = kSameQueue;
   BarrierReason reason = BarrierReason::readAfterWrite;
   bool operator==(const BufferBarrier&) const = default;
 };
 
-/// All barriers before one pass, given to Vulkan in one vkCmdPipelineBarrier2.
+/// Elements first … first + count - 1 of one of the plan's arrays.
+struct Run {
+  uint32_t first = 0, count = 0;
+  bool operator==(const Run&) const = default;
+};
+
+/// Barriers given to Vulkan in one command.
 struct BarrierBatch {
-  std::vector<ImageBarrier> images;
-  std::vector<BufferBarrier> buffers;
-  bool empty() const { return images.empty() && buffers.empty(); }
+  Run images, buffers;  ///< Of Plan::imageBarriers and Plan::bufferBarriers.
+  bool empty() const { return images.count == 0 && buffers.count == 0; }
   bool operator==(const BarrierBatch&) const = default;
 };
 
+/// A split barrier: an event that is set where the first side is done, and waited for where the second begins. Both
+/// lie on one queue, in this order.
+struct PlannedEvent {
+  uint32_t setAfter = 0, waitBefore = 0;  ///< Steps.
+  BarrierBatch barriers;
+  bool operator==(const PlannedEvent&) const = default;
+};
+
 struct PlannedAttachment {
+  static constexpr uint32_t kNoResolve = std::numeric_limits<uint32_t>::max();
   uint32_t resource = 0;
   Subresources range;
   VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
   VkAttachmentLoadOp load = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
   VkAttachmentStoreOp store = VK_ATTACHMENT_STORE_OP_STORE;
+  uint32_t resolve = kNoResolve;  ///< Index in Plan::attachments of the image that receives the mean of the samples.
   bool operator==(const PlannedAttachment&) const = default;
 };
 
@@ -65,16 +107,39 @@ struct PlannedPass {
   uint32_t pass = 0;   ///< Index in the declaration.
   uint32_t queue = 0;  ///< Index among the device's queues.
   BarrierBatch before;
+  Run waits;  ///< Of Plan::events.
+  Run sets;   ///< Of Plan::eventSets.
   // Raster passes:
-  std::vector<PlannedAttachment> colors;
-  std::vector<PlannedAttachment> depth;  ///< Zero or one.
+  bool continuesRendering = false;  ///< Draws in the rendering that the step before began: same attachments.
+  Run colors;                       ///< Of Plan::attachments, in order of declaration.
+  Run depth;                        ///< Zero or one.
   VkExtent2D renderArea = {0, 0};
   uint32_t renderLayers = 1;
   bool operator==(const PlannedPass& other) const {
-    return pass == other.pass && queue == other.queue && before == other.before && colors == other.colors &&
+    return pass == other.pass && queue == other.queue && before == other.before && waits == other.waits &&
+           sets == other.sets && continuesRendering == other.continuesRendering && colors == other.colors &&
            depth == other.depth && renderArea.width == other.renderArea.width &&
            renderArea.height == other.renderArea.height && renderLayers == other.renderLayers;
   }
+};
+
+/// Waits for an earlier submission on another queue (a timeline semaphore).
+struct SubmissionWait {
+  uint32_t submission = 0;           ///< Index in Plan::submissions, smaller than that of the waiting one.
+  VkPipelineStageFlags2 stages = 0;  ///< Of the waiting submission and all later ones on its queue.
+  bool operator==(const SubmissionWait&) const = default;
+};
+
+/// Steps that one queue executes without waiting for another in between: one vkQueueSubmit2. A plan on one queue has
+/// a single one, or one more for each host pass. A plan on several begins with one on queue 0 that makes the first
+/// submissions of the others wait for whatever the host did before, and ends with one on queue 0 that waits for all.
+struct PlannedSubmission {
+  uint32_t queue = 0;
+  Run steps;           ///< Of Plan::passes; may be empty.
+  Run waits;           ///< Of Plan::submissionWaits.
+  BarrierBatch atEnd;  ///< For those that wait for it: changes of layout and releases. In the last submission: the
+                       ///< states that exports and imports ask for.
+  bool operator==(const PlannedSubmission&) const = default;
 };
 
 /// A block of memory of one kind, shared by resources whose lifetimes do not overlap.
@@ -82,6 +147,7 @@ struct PlannedHeap {
   VkDeviceSize size = 0;
   uint32_t memoryTypeBits = 0;
   MemoryKind memory = MemoryKind::device;
+  bool dedicated = false;  ///< The device wants this memory to hold one resource alone.
   bool operator==(const PlannedHeap&) const = default;
 };
 
@@ -93,6 +159,7 @@ struct Placement {
   uint32_t firstStep = 0, lastStep = 0;  ///< Positions in Plan::passes, inclusive; passes.size(): exported.
   VkImageUsageFlags imageUsage = 0;
   VkBufferUsageFlags bufferUsage = 0;
+  bool concurrent = false;  ///< Several queue families read it at once: VK_SHARING_MODE_CONCURRENT.
   bool operator==(const Placement&) const = default;
 };
 
@@ -102,6 +169,7 @@ struct RetainedResource {
   VkImageUsageFlags imageUsage = 0;
   VkBufferUsageFlags bufferUsage = 0;
   VkImageLayout restLayout = VK_IMAGE_LAYOUT_GENERAL;  ///< Between frames; the plan starts and ends with it.
+  bool concurrent = false;                             ///< As in Placement.
   bool operator==(const RetainedResource&) const = default;
 };
 
@@ -121,14 +189,44 @@ struct MemoryReport {
 
 struct Plan {
   std::vector<PlannedPass> passes;  ///< In execution order; culled passes are absent.
-  BarrierBatch after;               ///< To the states that exports and imports ask for.
+  std::vector<PlannedSubmission> submissions;
   std::vector<PlannedHeap> heaps;
   std::vector<Placement> placements;
   std::vector<RetainedResource> retained;
   std::vector<CulledPass> culled;
   MemoryReport memory;
-  uint32_t barrierBatches = 0;
+  uint32_t barrierBatches = 0;  ///< Commands: batches before passes, at ends of submissions, and events.
+
+  // What the runs refer to:
+  std::vector<ImageBarrier> imageBarriers;
+  std::vector<BufferBarrier> bufferBarriers;
+  std::vector<PlannedAttachment> attachments;
+  std::vector<PlannedEvent> events;  ///< By the step that waits.
+  std::vector<uint32_t> eventSets;   ///< Indices of events, by the step that sets.
+  std::vector<SubmissionWait> submissionWaits;
+
   bool operator==(const Plan&) const = default;
+
+  std::span<const ImageBarrier> imagesOf(const BarrierBatch& batch) const { return runOf(imageBarriers, batch.images); }
+  std::span<const BufferBarrier> buffersOf(const BarrierBatch& batch) const {
+    return runOf(bufferBarriers, batch.buffers);
+  }
+  std::span<const PlannedAttachment> colorsOf(const PlannedPass& pass) const { return runOf(attachments, pass.colors); }
+  std::span<const PlannedAttachment> depthOf(const PlannedPass& pass) const { return runOf(attachments, pass.depth); }
+  std::span<const PlannedEvent> waitsOf(const PlannedPass& pass) const { return runOf(events, pass.waits); }
+  std::span<const uint32_t> setsOf(const PlannedPass& pass) const { return runOf(eventSets, pass.sets); }
+  std::span<const PlannedPass> stepsOf(const PlannedSubmission& submission) const {
+    return runOf(passes, submission.steps);
+  }
+  std::span<const SubmissionWait> waitsOf(const PlannedSubmission& submission) const {
+    return runOf(submissionWaits, submission.waits);
+  }
+
+ private:
+  template <class T>
+  static std::span<const T> runOf(const std::vector<T>& all, const Run& run) {
+    return std::span<const T>(all).subspan(run.first, run.count);
+  }
 };
 
 }  // namespace rendergraph

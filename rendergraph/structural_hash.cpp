@@ -57,7 +57,8 @@ void addAccess(Hash& hash, const DeclaredAccess& access) {
 
 uint64_t structuralHash(const Declaration& declaration, const CompileOptions& options) {
   Hash hash;
-  hash.add(options.order, options.aliasing);
+  hash.add(options.order, options.aliasing, options.barriers, options.splitDistance, options.mergeRasterPasses,
+           options.useQueues, options.overlappingFrames);
   hash.add(declaration.resources.size(), declaration.passes.size(), declaration.accesses.size());
   for (const DeclaredResource& resource : declaration.resources) addResource(hash, resource);
   for (const DeclaredPass& pass : declaration.passes) addPass(hash, pass);

@@ -157,11 +157,11 @@ TEST(Attachments, StoreOnlyWhatIsReadLater) {
   depth = second.depth(depth, {.load = LoadOp::load});
   graph.exportImage(color, kSampled);
   const Plan plan = planOf(graph);
-  EXPECT_EQ(plan.passes[0].colors[0].load, VK_ATTACHMENT_LOAD_OP_CLEAR);
-  EXPECT_EQ(plan.passes[0].depth[0].store, VK_ATTACHMENT_STORE_OP_STORE);
-  EXPECT_EQ(plan.passes[1].colors[0].load, VK_ATTACHMENT_LOAD_OP_LOAD);
-  EXPECT_EQ(plan.passes[1].colors[0].store, VK_ATTACHMENT_STORE_OP_STORE);
-  EXPECT_EQ(plan.passes[1].depth[0].store, VK_ATTACHMENT_STORE_OP_DONT_CARE);
+  EXPECT_EQ(plan.colorsOf(plan.passes[0])[0].load, VK_ATTACHMENT_LOAD_OP_CLEAR);
+  EXPECT_EQ(plan.depthOf(plan.passes[0])[0].store, VK_ATTACHMENT_STORE_OP_STORE);
+  EXPECT_EQ(plan.colorsOf(plan.passes[1])[0].load, VK_ATTACHMENT_LOAD_OP_LOAD);
+  EXPECT_EQ(plan.colorsOf(plan.passes[1])[0].store, VK_ATTACHMENT_STORE_OP_STORE);
+  EXPECT_EQ(plan.depthOf(plan.passes[1])[0].store, VK_ATTACHMENT_STORE_OP_DONT_CARE);
 }
 
 TEST(Compile, UsageFlagsFollowFromLivingAccesses) {
@@ -190,13 +190,14 @@ TEST(Compile, AMipChainIsBuiltInPlaceWithOneBarrierAStep) {
   graph.exportImage(chain, kSampled);
   const Plan plan = planOf(graph);
   for (uint32_t level = 1; level < 4; ++level) {
-    ASSERT_EQ(plan.passes[level].before.images.size(), 2u);  // The mip that is read, the mip that is written.
-    for (const ImageBarrier& barrier : plan.passes[level].before.images) {
+    ASSERT_EQ(plan.passes[level].before.images.count, 2u);  // The mip that is read, the mip that is written.
+    for (const ImageBarrier& barrier : plan.imagesOf(plan.passes[level].before)) {
       EXPECT_EQ(barrier.range.mipCount, 1u);
     }
   }
-  ASSERT_EQ(plan.after.images.size(), 1u);  // The others are in the layout and visible already.
-  EXPECT_EQ(plan.after.images[0].range.firstMip, 3u);
+  const auto after = plan.imagesOf(plan.submissions.back().atEnd);
+  ASSERT_EQ(after.size(), 1u);  // The others are in the layout and visible already.
+  EXPECT_EQ(after[0].range.firstMip, 3u);
 }
 
 TEST(Compile, SeveralReadersWaitOnce) {
@@ -211,7 +212,7 @@ TEST(Compile, SeveralReadersWaitOnce) {
   const Plan plan = planOf(graph);
   uint32_t barriers = 0;
   for (const PlannedPass& pass : plan.passes) {
-    for (const ImageBarrier& barrier : pass.before.images) {
+    for (const ImageBarrier& barrier : plan.imagesOf(pass.before)) {
       if (barrier.resource != image.resource || barrier.from.stages == 0) continue;
       ++barriers;
       EXPECT_EQ(barrier.to.stages, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT);

@@ -431,7 +431,7 @@ TEST(Executor, SampledDepthUnderReadOnlyTestHasTheReadOnlyLayout) {
   });
   executor.execute(graph);
   EXPECT_EQ(backend.bindings[0].layout, VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL);
-  EXPECT_EQ(executor.plan().passes[0].depth[0].store, VK_ATTACHMENT_STORE_OP_NONE);
+  EXPECT_EQ(executor.plan().depthOf(executor.plan().passes[0])[0].store, VK_ATTACHMENT_STORE_OP_NONE);
 }
 
 TEST(Executor, CopiesTheDeclaredRanges) {

@@ -346,8 +346,8 @@ class Replay {
 std::vector<std::vector<Placed>> barriersByResource(const Declaration& declaration, const Plan& plan) {
   std::vector<std::vector<Placed>> result(declaration.resources.size());
   const auto add = [&](uint32_t step, const BarrierBatch& batch) {
-    for (const ImageBarrier& barrier : batch.images) result[barrier.resource].push_back({step, barrier});
-    for (const BufferBarrier& barrier : batch.buffers) {
+    for (const ImageBarrier& barrier : plan.imagesOf(batch)) result[barrier.resource].push_back({step, barrier});
+    for (const BufferBarrier& barrier : plan.buffersOf(batch)) {
       ImageBarrier placed;
       placed.from = barrier.from;
       placed.to = barrier.to;
@@ -356,7 +356,7 @@ std::vector<std::vector<Placed>> barriersByResource(const Declaration& declarati
     }
   };
   for (uint32_t step = 0; step < plan.passes.size(); ++step) add(step, plan.passes[step].before);
-  add(static_cast<uint32_t>(plan.passes.size()), plan.after);
+  add(static_cast<uint32_t>(plan.passes.size()), plan.submissions.back().atEnd);
   return result;
 }
 

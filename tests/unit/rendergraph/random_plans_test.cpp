@@ -39,8 +39,9 @@ TEST(RandomPlans, NoDependencyIsMissing) {
     ASSERT_TRUE(missing.empty()) << "seed " << seed << ": " << missing.front().text;
     passes += plan.passes.size();
     for (const PlannedPass& pass : plan.passes) {
-      barriers += pass.before.images.size() + pass.before.buffers.size();
-      for (const ImageBarrier& barrier : pass.before.images) aliasBarriers += barrier.reason == BarrierReason::alias;
+      barriers += pass.before.images.count + pass.before.buffers.count;
+      for (const ImageBarrier& barrier : plan.imagesOf(pass.before))
+        aliasBarriers += barrier.reason == BarrierReason::alias;
     }
   }
   std::cout << kGraphs << " graphs, " << passes << " living passes, " << barriers << " barriers, " << aliasBarriers
