@@ -8,7 +8,8 @@ namespace rendergraph {
 
 struct Declaration;
 
-/// Names, bytes, barriers and memory; times are left unmeasured. Keeps Capture::planReused.
+/// Names, bytes, barriers, lifetimes and memory; times are left unmeasured. Keeps Capture::planReused, and the memory of
+/// what the capture held, so that an unchanged frame allocates nothing.
 void beginCapture(Capture& capture, const Declaration& declaration, const Plan& plan, Timing timing);
 
 }  // namespace rendergraph

@@ -136,19 +136,7 @@ std::vector<HeapGroup> groupByMemory(const Declaration& declaration, const std::
   return groups;
 }
 
-Packing pack(std::span<const AliasItem> items, Aliasing aliasing) {
-  switch (aliasing) {
-    case Aliasing::none:
-      return packSeparately(items);
-    case Aliasing::fast:
-      return packFast(items);
-    case Aliasing::best:
-      return packBest(items);
-  }
-  return {};
-}
-
-void packHeaps(const Declaration& declaration, const std::vector<ResourceUse>& uses, Aliasing aliasing, Plan& plan) {
+void packHeaps(const Declaration& declaration, const std::vector<ResourceUse>& uses, bool aliasing, Plan& plan) {
   std::vector<AliasItem> all;
   for (const HeapGroup& group : groupByMemory(declaration, uses, plan)) {
     std::vector<AliasItem> items;
@@ -159,7 +147,7 @@ void packHeaps(const Declaration& declaration, const std::vector<ResourceUse>& u
                        .first = placement.firstStep,
                        .last = placement.lastStep});
     }
-    const Packing packing = pack(items, aliasing);
+    const Packing packing = aliasing ? packAliased(items) : packSeparately(items);
     for (uint32_t i = 0; i < group.placements.size(); ++i) {
       plan.placements[group.placements[i]].heap = static_cast<uint32_t>(plan.heaps.size());
       plan.placements[group.placements[i]].offset = packing.offsets[i];

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "rendergraph/declaration.h"
+#include "rendergraph/declared_names.h"
 #include "rendergraph/graph.h"
 #include "rendergraph/json_text.h"
 #include "rendergraph/vulkan_names.h"
@@ -13,36 +14,6 @@
 namespace rendergraph {
 
 namespace {
-
-std::string_view nameOf(PassKind kind) {
-  switch (kind) {
-    case PassKind::raster:
-      return "raster";
-    case PassKind::compute:
-      return "compute";
-    case PassKind::transfer:
-      return "transfer";
-    case PassKind::host:
-      return "host";
-  }
-  return "?";
-}
-
-std::string_view nameOf(Origin origin) {
-  switch (origin) {
-    case Origin::created:
-      return "created";
-    case Origin::imported:
-      return "imported";
-    case Origin::persistent:
-      return "persistent";
-    case Origin::historyPrevious:
-      return "history previous";
-    case Origin::historyNext:
-      return "history next";
-  }
-  return "?";
-}
 
 std::string_view nameOf(BarrierReason reason) {
   switch (reason) {

@@ -19,10 +19,10 @@ double Frame::submit() {
   if (commands_ == VK_NULL_HANDLE) return 0.0;
   const VkCommandBuffer commands = std::exchange(commands_, VK_NULL_HANDLE);
   submitted_ = true;  // Even when it fails: nobody knows how far the device came.
-  const Clock::time_point start = Clock::now();
+  const double submitMs = millisecondsSince(start_);
   state_.backend.submitAndWait(commands);
-  const double wallMs = millisecondsSince(start);
-  readStamps();
+  const double wallMs = millisecondsSince(start_) - submitMs;
+  readStamps(submitMs);
   return wallMs;
 }
 
@@ -36,12 +36,14 @@ void Frame::stamp(uint32_t step) {
   if (!second) stamped_.push_back(step);
 }
 
-void Frame::readStamps() {
+void Frame::readStamps(double submitMs) {
   if (stamped_.empty()) return;
   std::vector<double> times(stamped_.size() * 2);
   state_.backend.readTimestamps(times);
   for (std::size_t i = 0; i < stamped_.size(); ++i) {
-    state_.capture.passes[stamped_[i]].gpuMs = (times[2 * i + 1] - times[2 * i]) * 1e-6;
+    CapturedPass& pass = state_.capture.passes[stamped_[i]];
+    pass.gpuMs = (times[2 * i + 1] - times[2 * i]) * 1e-6;
+    pass.gpuStartMs = submitMs + (times[2 * i] - times.front()) * 1e-6;  // The device's clock has its own origin.
   }
   state_.capture.frameGpuMs = std::max(0.0, state_.capture.frameGpuMs) + (times.back() - times.front()) * 1e-6;
   stamped_.clear();
@@ -134,8 +136,15 @@ void Frame::runRecording(const PlannedPass& planned) {
   pass.recorder(pass.recording, context);
 }
 
+void Frame::noteRecording(uint32_t step, double startMs) {
+  CapturedPass& pass = state_.capture.passes[step];
+  pass.recordStartMs = startMs;
+  pass.recordMs = millisecondsSince(start_) - startMs;
+  recordedMs_ += pass.recordMs;
+}
+
 void Frame::recordPass(uint32_t step) {
-  const Clock::time_point start = Clock::now();
+  const double startMs = millisecondsSince(start_);
   const PlannedPass& planned = state_.current->plan.passes[step];
   const DeclaredPass& pass = state_.declaration->passes[planned.pass];
   state_.planned = &planned;
@@ -150,7 +159,7 @@ void Frame::recordPass(uint32_t step) {
   stamp(step);
   state_.backend.endLabel(commands_);
   state_.planned = nullptr;
-  state_.capture.passes[step].recordMs = millisecondsSince(start);
+  noteRecording(step, startMs);
 }
 
 void Frame::recordHostPass(uint32_t step) {
@@ -160,15 +169,16 @@ void Frame::recordHostPass(uint32_t step) {
     recordBarriers(planned.before);
   }
   submit();
-  const Clock::time_point start = Clock::now();
+  const double startMs = millisecondsSince(start_);
   state_.planned = &planned;
   runRecording(planned);
   state_.planned = nullptr;
-  state_.capture.passes[step].recordMs = millisecondsSince(start);
+  noteRecording(step, startMs);
 }
 
 void Frame::execute() {
   const Plan& plan = state_.current->plan;
+  const double beganMs = millisecondsSince(start_);
   if (timing_ == Timing::isolated) {
     open();
     submit();  // The zeroing of persistent content belongs to no pass.
@@ -181,13 +191,15 @@ void Frame::execute() {
     open();
     recordPass(step);
     if (timing_ != Timing::isolated) continue;
-    const double ms = submit();
-    state_.capture.passes[step].gpuMs = ms;
-    state_.capture.frameGpuMs = std::max(0.0, state_.capture.frameGpuMs) + ms;
+    CapturedPass& pass = state_.capture.passes[step];
+    pass.gpuStartMs = millisecondsSince(start_);
+    pass.gpuMs = submit();
   }
   open();
   recordBarriers(plan.submissions.back().atEnd);
   submit();
+  // A clock of its own, so that the passes' times can be held against it.
+  if (timing_ == Timing::isolated) state_.capture.frameGpuMs = millisecondsSince(start_) - beganMs - recordedMs_;
 }
 
 void Frame::record(VkCommandBuffer commands) {

@@ -28,8 +28,9 @@ class Frame {
   void recordBarriers(const BarrierBatch& batch);
   void beginRendering(const PlannedPass& planned);
   void runRecording(const PlannedPass& planned);
+  void noteRecording(uint32_t step, double startMs);
   void stamp(uint32_t step);
-  void readStamps();
+  void readStamps(double submitMs);
 
   Executor& executor_;
   Executor::State& state_;
@@ -37,7 +38,9 @@ class Frame {
   VkCommandBuffer commands_ = VK_NULL_HANDLE;
   bool opened_ = false;
   bool submitted_ = false;
-  std::vector<uint32_t> stamped_;  // Steps with two timestamps in the open submission.
+  const Clock::time_point start_ = Clock::now();  // Of the frame; captures count from it.
+  double recordedMs_ = 0.0;                       // Sum over the passes.
+  std::vector<uint32_t> stamped_;                 // Steps with two timestamps in the open submission.
   std::vector<VkImageMemoryBarrier2> imageBarriers_;
   std::vector<VkBufferMemoryBarrier2> bufferBarriers_;
 };

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "rendergraph/declaration.h"
+#include "rendergraph/image_tap.h"
 
 namespace rendergraph {
 
@@ -118,6 +119,7 @@ Graph& Graph::operator=(Graph&&) noexcept = default;
 
 void Graph::reset() {
   declaration_->reset();
+  if (taps_ != nullptr) taps_->restart();
 }
 
 Image Graph::createImage(std::string_view name, const ImageDesc& desc, Location where) {
@@ -201,13 +203,20 @@ History Graph::history(std::string_view name, const ImageDesc& desc, Location wh
 
 void Graph::exportImage(Image image, const AccessState& after, Location where) {
   exportResource(*declaration_, image, after, where);
+  if (taps_ != nullptr) taps_->follow(*this, false);
 }
 
 void Graph::exportBuffer(Buffer buffer, const AccessState& after, Location where) {
   exportResource(*declaration_, buffer, after, where);
+  if (taps_ != nullptr) taps_->follow(*this, false);
+}
+
+void Graph::finishTaps() {
+  if (taps_ != nullptr) taps_->follow(*this, true);
 }
 
 Pass Graph::addPass(std::string_view name, PassKind kind, Location where) {
+  finishTaps();
   DeclaredPass pass;
   pass.name = declaration_->arena.copy(name);
   pass.kind = kind;

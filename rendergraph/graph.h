@@ -28,6 +28,7 @@
 namespace rendergraph {
 
 struct Declaration;  // declaration.h: the plain data that compile() reads.
+class ImageTaps;     // image_tap.h
 
 /// Last frame's and this frame's content of one image that lives across frames.
 struct History {
@@ -73,6 +74,12 @@ class Graph {
 
   Pass addPass(std::string_view name, PassKind kind, Location where = Location::current());
 
+  /// Copies of passes' outputs for the host to look at, see image_tap.h. From the next declared pass on, over reset(),
+  /// until it is given others; null: none. `taps` lives until then.
+  void setTaps(ImageTaps* taps) { taps_ = taps; }
+  /// Says that the declaration is complete, so that the last passes' copies are added; exports do so too.
+  void finishTaps();
+
   const ImageDesc& desc(Image image) const;
   const BufferDesc& desc(Buffer buffer) const;
 
@@ -87,6 +94,7 @@ class Graph {
   void setRecording(uint32_t pass, void* recording, Recorder recorder, Destroyer destroyer);
 
   std::unique_ptr<Declaration> declaration_;
+  ImageTaps* taps_ = nullptr;
 };
 
 template <class Recording>

@@ -10,6 +10,7 @@
 
 #include "engine/lens.h"
 #include "generated/version.h"
+#include "rendergraph/capture_series.h"
 
 namespace cli {
 

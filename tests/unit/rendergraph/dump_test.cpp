@@ -6,7 +6,6 @@
 
 #include <sstream>
 
-#include "rendergraph/capture.h"
 #include "rendergraph/compiler.h"
 #include "rendergraph/declaration.h"
 #include "rendergraph/graph.h"
@@ -112,15 +111,4 @@ TEST(Dump, DotShowsFlowAndCulledPasses) {
   EXPECT_THAT(dot, HasSubstr("r0 -> p1 [label=\"sampled\"]"));
   EXPECT_THAT(dot, HasSubstr("style=dashed, label=\"debug\""));
   EXPECT_THAT(dot, HasSubstr("r3 [shape=ellipse, label=\"out\", peripheries=2]"));
-}
-
-TEST(Dump, CaptureJsonNests) {
-  Capture capture;
-  capture.timing = "none";
-  capture.passes.push_back({.name = "a\nb"});
-  capture.passes.push_back({.name = "c"});
-  std::ostringstream out;
-  writeJson(out, capture);
-  EXPECT_TRUE(nests(out.str())) << out.str();
-  EXPECT_THAT(out.str(), HasSubstr(R"("name": "a\u000ab", "gpuMs": -1)"));
 }

@@ -1,8 +1,10 @@
 // A backend without a device: writes down what it is asked for, counts living objects, and fails on demand.
 #pragma once
 
+#include <chrono>
 #include <map>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "rendergraph/backend.h"
@@ -15,6 +17,7 @@ class FakeBackend : public rendergraph::Backend {
   std::map<uint64_t, std::string> living;  ///< Objects that were made and not destroyed, by id.
   int failAfter = -1;                      ///< Creations that still succeed; -1: all.
   bool failSubmit = false;
+  int submitMs = 0;  ///< What a submission takes, at least.
   uint32_t creations = 0;
 
   ~FakeBackend() override = default;
@@ -59,6 +62,7 @@ class FakeBackend : public rendergraph::Backend {
   }
   void submitAndWait(VkCommandBuffer) override {
     log.push_back("submit");
+    if (submitMs > 0) std::this_thread::sleep_for(std::chrono::milliseconds(submitMs));
     if (failSubmit) fail("device lost");
   }
   void barrier(VkCommandBuffer, const VkDependencyInfo& dependency) override {

@@ -1,0 +1,14 @@
+// Words for what a declaration consists of.
+#pragma once
+
+#include "rendergraph/declaration.h"
+#include "rendergraph/pass.h"
+
+namespace rendergraph {
+
+/// Literals: they live as long as the program.
+const char* nameOf(PassKind kind);
+const char* nameOf(Origin origin);
+const char* nameOf(MemoryKind kind);
+
+}  // namespace rendergraph
