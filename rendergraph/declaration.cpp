@@ -26,6 +26,7 @@ Declaration::~Declaration() {
 }
 
 void Declaration::destroyRecordings() {
+  if (!std::exchange(recordingsToDestroy, false)) return;
   for (DeclaredPass& pass : passes) {
     if (pass.destroyer != nullptr) pass.destroyer(pass.recording);
     pass.destroyer = nullptr;
@@ -38,6 +39,8 @@ void Declaration::reset() {
   passes.clear();
   accesses.clear();
   problems.clear();
+  inOrder = true;
+  latestPass = 0;
   arena.reset();
   serial = nextSerial();
 }
@@ -57,7 +60,7 @@ void Declaration::report(Misuse misuse, uint32_t pass, uint32_t resource, std::s
   problems.push_back(problem(misuse, pass, resource, std::move(reason), std::move(remedy), where));
 }
 
-uint32_t Declaration::indexOf(uint32_t resource, uint32_t graph, uint32_t pass, std::source_location where) const {
+void Declaration::throwHandle(uint32_t resource, uint32_t graph, uint32_t pass, std::source_location where) const {
   if (resource == kNone || graph == 0) {
     throw GraphError({problem(Misuse::unknownHandle, pass, kNone, "the handle was never given a resource",
                               "use a handle that the graph returned", where)});
@@ -67,12 +70,9 @@ uint32_t Declaration::indexOf(uint32_t resource, uint32_t graph, uint32_t pass, 
                               "the handle belongs to another graph, or to this one before reset()",
                               "declare or import the resource in this graph and use that handle", where)});
   }
-  if (resource >= resources.size()) {
-    throw GraphError({problem(Misuse::unknownHandle, pass, kNone,
-                              "the handle's index " + std::to_string(resource) + " is past the last resource",
-                              "use handles as the graph returned them", where)});
-  }
-  return resource;
+  throw GraphError({problem(Misuse::unknownHandle, pass, kNone,
+                            "the handle's index " + std::to_string(resource) + " is past the last resource",
+                            "use handles as the graph returned them", where)});
 }
 
 }  // namespace rendergraph

@@ -9,6 +9,7 @@
 #include <limits>
 #include <source_location>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "rendergraph/access.h"
@@ -30,22 +31,31 @@ enum class Origin : uint8_t {
   historyNext,
 };
 
-struct DeclaredResource {
-  std::string_view name;  ///< For people.
-  std::string_view key;   ///< Persistent and history: the name under which the executor keeps it.
-  std::source_location where;
+// What compile() reads of a resource, access or pass stands in a *Structure without padding, which structuralHash()
+// takes byte by byte: a field added there cannot be forgotten in the key of the plan cache.
+
+struct ResourceStructure {
   bool isImage = true;
   Origin origin = Origin::created;
   bool exported = false;
-  uint32_t version = 0;                              ///< Writes so far.
-  uint32_t firstAccess = kNone, lastAccess = kNone;  ///< Linked through DeclaredAccess::nextOfResource.
-  ImageDesc image;
-  BufferDesc buffer;
+  bool stated = false;  ///< `before` or `after` of the resource say something; they belong to the structure then.
   VkImageAspectFlags aspects = 0;
+  ImageDesc image;
+  VkImageUsageFlags importedImageUsage = 0;
+  BufferDesc buffer;
+  VkBufferUsageFlags importedBufferUsage = 0;
+  uint32_t version = 0;  ///< Writes so far.
+};
+static_assert(std::has_unique_object_representations_v<ResourceStructure>);
+
+struct DeclaredResource : ResourceStructure {
+  uint32_t firstAccess = kNone, lastAccess = kNone;  ///< Linked through DeclaredAccess::nextOfResource.
+  std::string_view name;                             ///< For people.
+  std::source_location where;
+  // Nothing below is used by a plain resource of the graph.
+  std::string_view key;  ///< Persistent and history: the name under which the executor keeps it.
   VkImage importedImage = VK_NULL_HANDLE;
   VkBuffer importedBuffer = VK_NULL_HANDLE;
-  VkImageUsageFlags importedImageUsage = 0;
-  VkBufferUsageFlags importedBufferUsage = 0;
   AccessState before;  ///< Imported only.
   AccessState after;   ///< Imported or exported.
 
@@ -57,45 +67,55 @@ struct DeclaredResource {
   bool observable() const { return exported || !created(); }
 };
 
-enum class AttachmentRole : uint8_t { none, color, depth };
+/// `resolve`: receives the mean of the samples of the colour attachment declared before it.
+enum class AttachmentRole : uint8_t { none, color, depth, resolve };
 
-struct DeclaredAccess {
+struct AccessStructure {
   uint32_t pass = kNone;
   uint32_t resource = kNone;
-  uint32_t nextOfPass = kNone;      ///< Next access of the same pass, in order of calls.
-  uint32_t nextOfResource = kNone;  ///< Next access of the same resource, in order of calls.
-  uint32_t version = 0;             ///< Of the handle that was given.
   Usage usage = Usage::sampled;
   AccessMode mode = AccessMode::read;
   AttachmentRole role = AttachmentRole::none;
   LoadOp load = LoadOp::dontCare;
-  VkClearValue clear = {};
-  Subresources range;  ///< Resolved; {0, 1, 0, 1, 0} for buffers.
-  VkPipelineStageFlags2 stages = 0;
-  VkAccessFlags2 access = 0;
+  Subresources range;                ///< Resolved; {0, 1, 0, 1, 0} for buffers.
+  VkPipelineStageFlags2 stages = 0;  ///< With the shader stages that the call left out.
+};
+static_assert(std::has_unique_object_representations_v<AccessStructure>);
+
+struct DeclaredAccess : AccessStructure {
+  uint32_t nextOfPass = kNone;                       ///< Next access of the same pass, in order of calls.
+  uint32_t nextOfResource = kNone;                   ///< Next access of the same resource, in order of calls.
+  uint32_t version = 0;                              ///< Of the handle that was given.
   VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;  ///< Agreed among overlapping accesses of the pass.
+  VkAccessFlags2 access = 0;
+  VkClearValue clear = {};
   std::source_location where;
 
   bool writes() const { return mode != AccessMode::read; }
   bool needsContent() const { return mode != AccessMode::write; }
 };
 
-struct DeclaredPass {
-  using Recorder = void (*)(void* recording, PassContext& context);
-  using Destroyer = void (*)(void* recording);
-
-  std::string_view name;
-  std::source_location where;
+struct PassStructure {
   PassKind kind = PassKind::compute;
   QueuePreference queue = QueuePreference::graphics;
   bool sideEffect = false;
-  uint32_t firstAccess = kNone, lastAccess = kNone;  ///< Linked through DeclaredAccess::nextOfPass.
-  VkExtent2D renderArea = {0, 0};                    ///< Raster: of the attachments, or as declared.
+  bool disabled = false;           ///< Pass::onlyIf(false); it has no accesses.
+  VkExtent2D renderArea = {0, 0};  ///< Raster: of the attachments, or as declared.
   uint32_t renderLayers = 1;
+};
+static_assert(std::has_unique_object_representations_v<PassStructure>);
+
+struct DeclaredPass : PassStructure {
+  using Recorder = void (*)(void* recording, PassContext& context);
+  using Destroyer = void (*)(void* recording);
+
   bool hasAttachments = false;
+  uint32_t firstAccess = kNone, lastAccess = kNone;  ///< Linked through DeclaredAccess::nextOfPass.
+  std::string_view name;
+  std::source_location where;
   void* recording = nullptr;
   Recorder recorder = nullptr;
-  Destroyer destroyer = nullptr;
+  Destroyer destroyer = nullptr;  ///< None for a recording that needs no destruction.
 };
 
 /// The accesses of one pass or of one resource, for range-for.
@@ -128,6 +148,10 @@ struct Declaration {
   std::vector<DeclaredAccess> accesses;  ///< In order of calls.
   std::vector<GraphError::Problem> problems;
   Arena arena;
+  /// Whether every access was declared before those of later passes, so that the order of the passes is one in which
+  /// they can run. Accesses of several passes may be declared in turns; then compile() looks for an order.
+  bool inOrder = true;
+  uint32_t latestPass = 0;  ///< Of the latest access.
 
   Declaration();
   ~Declaration();
@@ -155,12 +179,17 @@ struct Declaration {
   /// none of this declaration; nothing sensible could follow such a handle.
   template <class Tag>
   uint32_t indexOf(const Handle<Tag>& handle, uint32_t pass, std::source_location where) const {
-    return indexOf(handle.resource, handle.graph, pass, where);
+    if (handle.graph != serial || handle.resource >= resources.size()) [[unlikely]] {
+      throwHandle(handle.resource, handle.graph, pass, where);
+    }
+    return handle.resource;
   }
 
  private:
-  uint32_t indexOf(uint32_t resource, uint32_t graph, uint32_t pass, std::source_location where) const;
+  [[noreturn]] void throwHandle(uint32_t resource, uint32_t graph, uint32_t pass, std::source_location where) const;
   void destroyRecordings();
+  friend class Graph;
+  bool recordingsToDestroy = false;  // Some recording has a destructor.
 };
 
 /// State in which a persistent resource rests between frames: every later use is ordered after the last one, and

@@ -20,15 +20,11 @@ Buffer bufferHandle(const Declaration& declaration, uint32_t index) {
   return {.resource = index, .version = declaration.resources[index].version, .graph = declaration.serial};
 }
 
-void checkShape(Declaration& declaration, uint32_t index) {
+void reportImageShape(Declaration& declaration, uint32_t index) {
   const DeclaredResource& resource = declaration.resources[index];
   const auto report = [&](Misuse misuse, std::string reason, std::string remedy) {
     declaration.report(misuse, kNone, index, std::move(reason), std::move(remedy), resource.where);
   };
-  if (!resource.isImage) {
-    if (resource.buffer.size == 0) report(Misuse::overLimit, "its size is zero", "give it at least one byte");
-    return;
-  }
   const ImageDesc& desc = resource.image;
   if (desc.format == VK_FORMAT_UNDEFINED) {
     report(Misuse::formatMismatch, "its format is UNDEFINED", "name a format");
@@ -49,12 +45,38 @@ void checkShape(Declaration& declaration, uint32_t index) {
   }
 }
 
-uint32_t addResource(Declaration& declaration, DeclaredResource resource, std::string_view name) {
+bool shapeIsRight(const ImageDesc& desc) {
+  return desc.format != VK_FORMAT_UNDEFINED && desc.width != 0 && desc.height != 0 && desc.layers != 0 &&
+         (desc.mips == 1 || (desc.mips != 0 && desc.mips <= fullMipCount(desc.width, desc.height)));
+}
+
+uint32_t addImage(Declaration& declaration, std::string_view name, const ImageDesc& desc, Origin origin,
+                  std::source_location where) {
+  const auto index = static_cast<uint32_t>(declaration.resources.size());
+  DeclaredResource& resource = declaration.resources.emplace_back();
   resource.name = declaration.arena.copy(name);
-  if (resource.isImage) resource.aspects = aspectsOf(resource.image.format);
-  declaration.resources.push_back(resource);
-  const auto index = static_cast<uint32_t>(declaration.resources.size() - 1);
-  checkShape(declaration, index);
+  resource.where = where;
+  resource.origin = origin;
+  resource.image = desc;
+  resource.aspects = aspectsOf(desc.format);
+  if (!shapeIsRight(desc)) [[unlikely]] {
+    reportImageShape(declaration, index);
+  }
+  return index;
+}
+
+uint32_t addBuffer(Declaration& declaration, std::string_view name, const BufferDesc& desc, Origin origin,
+                   std::source_location where) {
+  const auto index = static_cast<uint32_t>(declaration.resources.size());
+  DeclaredResource& resource = declaration.resources.emplace_back();
+  resource.name = declaration.arena.copy(name);
+  resource.where = where;
+  resource.isImage = false;
+  resource.origin = origin;
+  resource.buffer = desc;
+  if (desc.size == 0) {
+    declaration.report(Misuse::overLimit, kNone, index, "its size is zero", "give it at least one byte", where);
+  }
   return index;
 }
 
@@ -82,12 +104,28 @@ void checkKeyIsUnique(Declaration& declaration, uint32_t index) {
   }
 }
 
-uint32_t addRetained(Declaration& declaration, std::string_view key, std::string_view suffix,
-                     DeclaredResource resource) {
-  const uint32_t index = addResource(declaration, resource, std::string(key).append(suffix));
-  declaration.resources[index].key = declaration.resources[index].name.substr(0, key.size());
+/// Gives a retained resource the key under which the executor keeps it: its name without a suffix.
+uint32_t withKey(Declaration& declaration, uint32_t index, std::size_t keyLength) {
+  declaration.resources[index].key = declaration.resources[index].name.substr(0, keyLength);
   checkKeyIsUnique(declaration, index);
   return index;
+}
+
+uint32_t addHistorySide(Declaration& declaration, std::string_view name, std::string_view suffix, const ImageDesc& desc,
+                        Origin origin, std::source_location where) {
+  // The two names are put together in the arena, so that re-declaring a frame asks the heap for nothing.
+  char* text = static_cast<char*>(declaration.arena.allocate(name.size() + suffix.size(), 1));
+  name.copy(text, name.size());
+  suffix.copy(text + name.size(), suffix.size());
+  const uint32_t index = addImage(declaration, {text, name.size() + suffix.size()}, desc, origin, where);
+  return withKey(declaration, index, name.size());
+}
+
+void checkStates(Declaration& declaration, uint32_t index, std::source_location where) {
+  DeclaredResource& resource = declaration.resources[index];
+  resource.stated = true;
+  checkState(declaration, index, resource.before, "before", where);
+  checkState(declaration, index, resource.after, "after", where);
 }
 
 template <class Tag>
@@ -107,6 +145,7 @@ void exportResource(Declaration& declaration, const Handle<Tag>& handle, const A
   }
   checkState(declaration, index, after, "after", where);
   resource.exported = true;
+  resource.stated = true;
   resource.after = after;
 }
 
@@ -123,32 +162,21 @@ void Graph::reset() {
 }
 
 Image Graph::createImage(std::string_view name, const ImageDesc& desc, Location where) {
-  DeclaredResource resource;
-  resource.image = desc;
-  resource.where = where;
-  return imageHandle(*declaration_, addResource(*declaration_, resource, name));
+  return imageHandle(*declaration_, addImage(*declaration_, name, desc, Origin::created, where));
 }
 
 Buffer Graph::createBuffer(std::string_view name, const BufferDesc& desc, Location where) {
-  DeclaredResource resource;
-  resource.isImage = false;
-  resource.buffer = desc;
-  resource.where = where;
-  return bufferHandle(*declaration_, addResource(*declaration_, resource, name));
+  return bufferHandle(*declaration_, addBuffer(*declaration_, name, desc, Origin::created, where));
 }
 
 Image Graph::importImage(std::string_view name, const ImageDesc& desc, const ImportedImage& imported, Location where) {
-  DeclaredResource resource;
-  resource.origin = Origin::imported;
-  resource.image = desc;
+  const uint32_t index = addImage(*declaration_, name, desc, Origin::imported, where);
+  DeclaredResource& resource = declaration_->resources[index];
   resource.importedImage = imported.image;
   resource.importedImageUsage = imported.usage;
   resource.before = imported.before;
   resource.after = imported.after;
-  resource.where = where;
-  const uint32_t index = addResource(*declaration_, resource, name);
-  checkState(*declaration_, index, imported.before, "before", where);
-  checkState(*declaration_, index, imported.after, "after", where);
+  checkStates(*declaration_, index, where);
   if (imported.after.layout == VK_IMAGE_LAYOUT_PREINITIALIZED) {
     declaration_->report(Misuse::importState, kNone, index, "no image can be left in layout PREINITIALIZED",
                          "name the layout in which the host will use it", where);
@@ -158,47 +186,31 @@ Image Graph::importImage(std::string_view name, const ImageDesc& desc, const Imp
 
 Buffer Graph::importBuffer(std::string_view name, const BufferDesc& desc, const ImportedBuffer& imported,
                            Location where) {
-  DeclaredResource resource;
-  resource.isImage = false;
-  resource.origin = Origin::imported;
-  resource.buffer = desc;
+  const uint32_t index = addBuffer(*declaration_, name, desc, Origin::imported, where);
+  DeclaredResource& resource = declaration_->resources[index];
   resource.importedBuffer = imported.buffer;
   resource.importedBufferUsage = imported.usage;
   resource.before = imported.before;
   resource.after = imported.after;
-  resource.where = where;
-  const uint32_t index = addResource(*declaration_, resource, name);
-  checkState(*declaration_, index, imported.before, "before", where);
-  checkState(*declaration_, index, imported.after, "after", where);
+  checkStates(*declaration_, index, where);
   return bufferHandle(*declaration_, index);
 }
 
 Image Graph::persistentImage(std::string_view name, const ImageDesc& desc, Location where) {
-  DeclaredResource resource;
-  resource.origin = Origin::persistent;
-  resource.image = desc;
-  resource.where = where;
-  return imageHandle(*declaration_, addRetained(*declaration_, name, "", resource));
+  const uint32_t index = addImage(*declaration_, name, desc, Origin::persistent, where);
+  return imageHandle(*declaration_, withKey(*declaration_, index, name.size()));
 }
 
 Buffer Graph::persistentBuffer(std::string_view name, const BufferDesc& desc, Location where) {
-  DeclaredResource resource;
-  resource.isImage = false;
-  resource.origin = Origin::persistent;
-  resource.buffer = desc;
-  resource.where = where;
-  return bufferHandle(*declaration_, addRetained(*declaration_, name, "", resource));
+  const uint32_t index = addBuffer(*declaration_, name, desc, Origin::persistent, where);
+  return bufferHandle(*declaration_, withKey(*declaration_, index, name.size()));
 }
 
 History Graph::history(std::string_view name, const ImageDesc& desc, Location where) {
-  DeclaredResource resource;
-  resource.image = desc;
-  resource.where = where;
-  resource.origin = Origin::historyPrevious;
-  const uint32_t previous = addRetained(*declaration_, name, " (previous)", resource);
-  resource.origin = Origin::historyNext;
-  const uint32_t next = addRetained(*declaration_, name, " (next)", resource);
-  return {imageHandle(*declaration_, previous), imageHandle(*declaration_, next)};
+  Declaration& declaration = *declaration_;
+  const uint32_t previous = addHistorySide(declaration, name, " (previous)", desc, Origin::historyPrevious, where);
+  const uint32_t next = addHistorySide(declaration, name, " (next)", desc, Origin::historyNext, where);
+  return {imageHandle(declaration, previous), imageHandle(declaration, next)};
 }
 
 void Graph::exportImage(Image image, const AccessState& after, Location where) {
@@ -216,12 +228,11 @@ void Graph::finishTaps() {
 }
 
 Pass Graph::addPass(std::string_view name, PassKind kind, Location where) {
-  finishTaps();
-  DeclaredPass pass;
+  if (taps_ != nullptr) finishTaps();
+  DeclaredPass& pass = declaration_->passes.emplace_back();
   pass.name = declaration_->arena.copy(name);
   pass.kind = kind;
   pass.where = where;
-  declaration_->passes.push_back(pass);
   return Pass(*this, static_cast<uint32_t>(declaration_->passes.size() - 1));
 }
 
@@ -243,6 +254,7 @@ void Graph::setRecording(uint32_t pass, void* recording, Recorder recorder, Dest
   declared.recording = recording;
   declared.recorder = recorder;
   declared.destroyer = destroyer;
+  if (destroyer != nullptr) declaration_->recordingsToDestroy = true;
 }
 
 }  // namespace rendergraph

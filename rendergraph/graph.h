@@ -19,6 +19,7 @@
 #include <new>
 #include <source_location>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include "rendergraph/handle.h"
@@ -103,7 +104,8 @@ void Pass::record(Recording recording) {
   new (memory) Recording(std::move(recording));
   graph_->setRecording(
       index_, memory, [](void* self, PassContext& context) { (*static_cast<Recording*>(self))(context); },
-      [](void* self) { static_cast<Recording*>(self)->~Recording(); });
+      std::is_trivially_destructible_v<Recording> ? nullptr
+                                                  : +[](void* self) { static_cast<Recording*>(self)->~Recording(); });
 }
 
 }  // namespace rendergraph

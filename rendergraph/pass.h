@@ -112,6 +112,9 @@ class Pass {
                               Location where = Location::current());
   /// Next colour attachment, in order of calls. Raster passes only. All attachments have the same size.
   [[nodiscard]] Image color(Image image, const ColorAttachment& attachment = {}, Location where = Location::current());
+  /// Receives the mean of the samples of the colour attachment declared just before it, which has several samples
+  /// where this image has one; same format, size and layers.
+  [[nodiscard]] Image resolve(Image target, Subresources range = mip(0), Location where = Location::current());
   /// The depth attachment, tested and written.
   [[nodiscard]] Image depth(Image image, const DepthAttachment& attachment = {}, Location where = Location::current());
   /// The depth attachment, tested only.
@@ -119,6 +122,10 @@ class Pass {
   /// Render area of a raster pass without attachments (fragment stores only), px.
   void renderArea(VkExtent2D extent, uint32_t layers = 1);
 
+  /// With a false condition the pass is left out as if it had not been declared: what its writes return is the content
+  /// from before, so that a chain of passes needs no branches around those that may be missing. Call it before the
+  /// pass's accesses. Default: true.
+  void onlyIf(bool condition);
   /// Never culled, whatever becomes of its outputs (it has an effect that the graph does not see).
   void sideEffect();
   void prefer(QueuePreference queue);

@@ -40,7 +40,7 @@ struct ImageDesc {
 };
 
 /// Where a buffer's memory lies. Buffers of different kinds never share a heap.
-enum class MemoryKind : uint8_t {
+enum class MemoryKind : uint32_t {
   device,    ///< Device-local; not reachable by the host.
   upload,    ///< Host writes, device reads.
   readback,  ///< Device writes, host reads.
@@ -83,6 +83,19 @@ struct ImportedBuffer {
 VkImageAspectFlags aspectsOf(VkFormat format);
 /// Bytes per texel of the uncompressed formats; 0 for others.
 uint32_t texelSize(VkFormat format);
+
+/// The same image with all sides divided, rounded up, at least 1 px; one mip.
+constexpr ImageDesc dividedBy(ImageDesc desc, uint32_t divisor) {
+  desc.width = (desc.width + divisor - 1) / divisor;
+  desc.height = (desc.height + divisor - 1) / divisor;
+  desc.mips = 1;
+  return desc;
+}
+/// The same image in another format.
+constexpr ImageDesc withFormat(ImageDesc desc, VkFormat format) {
+  desc.format = format;
+  return desc;
+}
 
 /// Size of a mip level, px.
 VkExtent2D mipExtent(const ImageDesc& desc, uint32_t level);

@@ -1,6 +1,9 @@
-// The key of the plan cache. Every field that compile() reads is mixed in; names, recordings, clear values, source
-// locations and the host's Vulkan objects are not, so that changing them keeps the plan.
-#include <bit>
+// The key of the plan cache: every byte of the structures that compile() reads, and the options. Names, recordings,
+// clear values, source locations and the host's Vulkan objects are not in them, so that changing those keeps the plan.
+// The mixing is that of wyhash (Wang Yi, "wyhash", public domain): 128-bit products of 16 bytes at a time.
+#include <cstring>
+#include <iterator>
+#include <type_traits>
 
 #include "rendergraph/compiler.h"
 #include "rendergraph/declaration.h"
@@ -11,58 +14,67 @@ namespace {
 
 class Hash {
  public:
-  template <class... Words>
-  void add(Words... words) {
-    (mix(static_cast<uint64_t>(words)), ...);
+  /// Any structure without padding, in steps of eight bytes.
+  template <class T>
+  void add(const T& value) {
+    static_assert(std::has_unique_object_representations_v<T> && sizeof(T) % 8 == 0);
+    uint64_t words[sizeof(T) / 8];
+    std::memcpy(words, &value, sizeof(T));
+    std::size_t i = 0;
+    for (; i + 1 < std::size(words); i += 2) mix(words[i], words[i + 1]);
+    if (i < std::size(words)) mix(words[i], kSecond);
   }
-  uint64_t value() const {
-    uint64_t z = state_;  // Last step of splitmix64, so that low bits depend on all.
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ull;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBull;
-    return z ^ (z >> 31);
-  }
+  uint64_t value() const { return product(state_ ^ kFirst, kSecond); }
 
  private:
-  void mix(uint64_t word) {
-    state_ = std::rotl(state_ ^ (word * 0x9E3779B97F4A7C15ull), 29) * 0xD6E8FEB86659FD93ull + 0x2545F4914F6CDD1Dull;
+  static constexpr uint64_t kFirst = 0x2D358DCCAA6C78A5ull, kSecond = 0x8BB84B93962EACC9ull;
+  static uint64_t product(uint64_t a, uint64_t b) {
+    __extension__ using Wide = unsigned __int128;
+    const Wide wide = static_cast<Wide>(a) * b;
+    return static_cast<uint64_t>(wide) ^ static_cast<uint64_t>(wide >> 64);
   }
+  void mix(uint64_t a, uint64_t b) { state_ = product(a ^ kFirst, b ^ state_); }
   uint64_t state_ = 0x243F6A8885A308D3ull;
 };
 
-void addState(Hash& hash, const AccessState& state) {
-  hash.add(state.stages, state.access, state.layout);
-}
+struct StateWords {
+  uint64_t beforeStages, beforeAccess, afterStages, afterAccess;
+  VkImageLayout beforeLayout, afterLayout;
+};
 
-void addResource(Hash& hash, const DeclaredResource& resource) {
-  hash.add(resource.isImage, resource.origin, resource.exported, resource.importedImageUsage,
-           resource.importedBufferUsage);
-  const ImageDesc& image = resource.image;
-  hash.add(image.format, image.width, image.height, image.layers, image.mips, image.samples, image.extraUsage);
-  hash.add(resource.buffer.size, resource.buffer.memory, resource.buffer.extraUsage);
-  addState(hash, resource.before);
-  addState(hash, resource.after);
-}
-
-void addPass(Hash& hash, const DeclaredPass& pass) {
-  hash.add(pass.kind, pass.queue, pass.sideEffect, pass.renderArea.width, pass.renderArea.height, pass.renderLayers);
-}
-
-void addAccess(Hash& hash, const DeclaredAccess& access) {
-  hash.add(access.pass, access.resource, access.usage, access.mode, access.role, access.load, access.stages);
-  const Subresources& range = access.range;
-  hash.add(range.firstMip, range.mipCount, range.firstLayer, range.layerCount, range.aspects);
-}
+struct Head {
+  uint64_t resources, passes, accesses;
+  uint32_t order, aliasing, barriers, splitDistance, mergeRasterPasses, useQueues, overlappingFrames, unused;
+};
 
 }  // namespace
 
 uint64_t structuralHash(const Declaration& declaration, const CompileOptions& options) {
   Hash hash;
-  hash.add(options.order, options.aliasing, options.barriers, options.splitDistance, options.mergeRasterPasses,
-           options.useQueues, options.overlappingFrames);
-  hash.add(declaration.resources.size(), declaration.passes.size(), declaration.accesses.size());
-  for (const DeclaredResource& resource : declaration.resources) addResource(hash, resource);
-  for (const DeclaredPass& pass : declaration.passes) addPass(hash, pass);
-  for (const DeclaredAccess& access : declaration.accesses) addAccess(hash, access);
+  hash.add(Head{.resources = declaration.resources.size(),
+                .passes = declaration.passes.size(),
+                .accesses = declaration.accesses.size(),
+                .order = static_cast<uint32_t>(options.order),
+                .aliasing = static_cast<uint32_t>(options.aliasing),
+                .barriers = static_cast<uint32_t>(options.barriers),
+                .splitDistance = options.splitDistance,
+                .mergeRasterPasses = options.mergeRasterPasses,
+                .useQueues = options.useQueues,
+                .overlappingFrames = options.overlappingFrames,
+                .unused = 0});
+  for (const DeclaredResource& resource : declaration.resources) {
+    hash.add<ResourceStructure>(resource);
+    if (!resource.stated) continue;
+    const AccessState &before = resource.before, &after = resource.after;
+    hash.add(StateWords{.beforeStages = before.stages,
+                        .beforeAccess = before.access,
+                        .afterStages = after.stages,
+                        .afterAccess = after.access,
+                        .beforeLayout = before.layout,
+                        .afterLayout = after.layout});
+  }
+  for (const DeclaredPass& pass : declaration.passes) hash.add<PassStructure>(pass);
+  for (const DeclaredAccess& access : declaration.accesses) hash.add<AccessStructure>(access);
   return hash.value();
 }
 
