@@ -67,17 +67,13 @@ AccessRules rulesOf(Usage usage, AccessMode mode, VkPipelineStageFlags2 shaderSt
           .access = access,
           .layout = row.layout,
           .imageUsage = row.imageUsage,
-          .bufferUsage = row.bufferUsage};
+          .bufferUsage = row.bufferUsage,
+          // A transfer or host write of a part keeps the rest without reading it: modify needs only the write.
+          .possible = mode == AccessMode::read ? row.read != 0 : row.write != 0};
 }
 
 bool usesShaderStages(Usage usage) {
   return kTable[static_cast<std::size_t>(usage)].stages == 0;
-}
-
-bool allows(Usage usage, AccessMode mode) {
-  const Row& row = kTable[static_cast<std::size_t>(usage)];
-  // A transfer or host write of a part keeps the rest without reading it: modify needs only the write.
-  return mode == AccessMode::read ? row.read != 0 : row.write != 0;
 }
 
 bool writesMemory(VkAccessFlags2 access) {

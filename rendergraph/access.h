@@ -39,6 +39,7 @@ struct AccessRules {
   VkImageLayout layout;            ///< UNDEFINED for buffers.
   VkImageUsageFlags imageUsage;    ///< 0 when an image cannot be used so.
   VkBufferUsageFlags bufferUsage;  ///< 0 when a buffer cannot be used so.
+  bool possible;                   ///< Whether the usage can read (read) or write (write, modify) at all.
 };
 
 /// `shaderStages`: stages that touch the resource for shader usages; ignored for fixed-function usages.
@@ -46,8 +47,6 @@ AccessRules rulesOf(Usage usage, AccessMode mode, VkPipelineStageFlags2 shaderSt
 
 /// Whether the usage happens in shaders, so that the caller names the stages.
 bool usesShaderStages(Usage usage);
-/// Whether the usage can read (read) or write (write, modify) at all.
-bool allows(Usage usage, AccessMode mode);
 
 /// Every access bit that writes memory; the others read.
 inline constexpr VkAccessFlags2 kWriteAccess =

@@ -41,7 +41,7 @@ void checkUsage(const Reporter& report, const DeclaredResource& resource, const 
            std::string(resource.isImage ? "an image" : "a buffer") + " cannot be used as " + usage(),
            "choose a usage that fits");
   }
-  if (!allows(request.usage, request.mode)) {
+  if (!rules.possible) {
     report(Misuse::missingUsage,
            "usage " + usage() + (request.mode == AccessMode::read ? " cannot read" : " cannot write"),
            request.mode == AccessMode::read ? "declare a write or modify" : "choose a usage that writes");

@@ -14,21 +14,13 @@ class Arena {
  public:
   /// Uninitialised bytes, valid until reset(). `alignment` is a power of two, at most that of max_align_t.
   void* allocate(std::size_t size, std::size_t alignment) {
-    while (current_ < blocks_.size()) {
-      const std::size_t offset = (used_ + alignment - 1) & ~(alignment - 1);
-      if (offset + size <= blocks_[current_].size) {
-        used_ = offset + size;
-        return blocks_[current_].bytes.get() + offset;
-      }
-      ++current_;
-      used_ = 0;
+    const std::size_t offset = (used_ + alignment - 1) & ~(alignment - 1);
+    if (current_ < blocks_.size() && offset + size <= blocks_[current_].size) [[likely]] {
+      used_ = offset + size;
+      return blocks_[current_].bytes.get() + offset;
     }
-    const std::size_t blockSize = size > kBlockSize ? size : kBlockSize;
-    blocks_.push_back({std::make_unique<std::byte[]>(blockSize), blockSize});
-    used_ = size;
-    return blocks_.back().bytes.get();
+    return allocateInNextBlock(size);
   }
-
   /// A copy of the text.
   std::string_view copy(std::string_view text) {
     if (text.empty()) return {};
@@ -41,6 +33,19 @@ class Arena {
   void reset() { current_ = used_ = 0; }
 
  private:
+  void* allocateInNextBlock(std::size_t size) {
+    while (++current_ < blocks_.size()) {
+      if (size > blocks_[current_].size) continue;
+      used_ = size;
+      return blocks_[current_].bytes.get();
+    }
+    const std::size_t blockSize = size > kBlockSize ? size : kBlockSize;
+    blocks_.push_back({std::make_unique<std::byte[]>(blockSize), blockSize});
+    current_ = blocks_.size() - 1;
+    used_ = size;
+    return blocks_.back().bytes.get();
+  }
+
   static constexpr std::size_t kBlockSize = 16 * 1024;  // Bytes; a typical frame needs one or two blocks.
   struct Block {
     std::unique_ptr<std::byte[]> bytes;

@@ -30,23 +30,21 @@ void agreeOnLayouts(Declaration& declaration, uint32_t pass, uint32_t resource) 
   }
 }
 
-void append(Declaration& declaration, const DeclaredAccess& access) {
+/// Room for one more access, linked to its pass and its resource.
+DeclaredAccess& append(Declaration& declaration, uint32_t passIndex, uint32_t resourceIndex) {
   const auto index = static_cast<uint32_t>(declaration.accesses.size());
-  declaration.accesses.push_back(access);
-  DeclaredPass& pass = declaration.passes[access.pass];
-  DeclaredResource& resource = declaration.resources[access.resource];
-  if (access.pass < declaration.latestPass) declaration.inOrder = false;
-  declaration.latestPass = access.pass;
-  if (pass.lastAccess == kNone)
-    pass.firstAccess = index;
-  else
-    declaration.accesses[pass.lastAccess].nextOfPass = index;
-  pass.lastAccess = index;
-  if (resource.lastAccess == kNone)
-    resource.firstAccess = index;
-  else
-    declaration.accesses[resource.lastAccess].nextOfResource = index;
-  resource.lastAccess = index;
+  DeclaredAccess& access = declaration.accesses.emplace_back();
+  access.pass = passIndex;
+  access.resource = resourceIndex;
+  DeclaredPass& pass = declaration.passes[passIndex];
+  DeclaredResource& resource = declaration.resources[resourceIndex];
+  if (passIndex < declaration.latestPass) declaration.inOrder = false;
+  declaration.latestPass = passIndex;
+  (pass.lastAccess == kNone ? pass.firstAccess : declaration.accesses[pass.lastAccess].nextOfPass) = index;
+  (resource.lastAccess == kNone ? resource.firstAccess : declaration.accesses[resource.lastAccess].nextOfResource) =
+      index;
+  pass.lastAccess = resource.lastAccess = index;
+  return access;
 }
 
 /// Whether the pass has used the resource before.
@@ -57,6 +55,27 @@ bool usedBefore(const Declaration& declaration, uint32_t pass, uint32_t resource
   return false;
 }
 
+/// The usual case, in which checkAccess() would find nothing: a colour image or a buffer of the graph.
+bool plainlyRight(const AccessRequest& request, const DeclaredResource& resource, const AccessRules& rules) {
+  if (request.version != resource.version || !resource.created() || !rules.possible || rules.stages == 0) return false;
+  if (!resource.isImage) return rules.bufferUsage != 0 && request.usage != Usage::host;
+  return rules.imageUsage != 0 && resource.aspects == VK_IMAGE_ASPECT_COLOR_BIT &&
+         request.usage != Usage::depthAttachment && request.usage != Usage::depthReadOnly;
+}
+
+bool isWhole(const Subresources& range, const DeclaredResource& resource) {
+  return resource.isImage && range == Subresources{} && resource.image.mips != 0 && resource.image.layers != 0 &&
+         resource.aspects != 0;
+}
+
+Subresources wholeOf(const DeclaredResource& resource) {
+  return {.firstMip = 0,
+          .mipCount = resource.image.mips,
+          .firstLayer = 0,
+          .layerCount = resource.image.layers,
+          .aspects = resource.aspects};
+}
+
 /// Checks and stores one access. Returns the version of the resource afterwards.
 uint32_t addAccess(Declaration& declaration, const AccessRequest& request) {
   const DeclaredPass& pass = declaration.passes[request.pass];
@@ -64,13 +83,11 @@ uint32_t addAccess(Declaration& declaration, const AccessRequest& request) {
   if (pass.disabled) return request.version;  // As if the call had not been made.
   const VkPipelineStageFlags2 stages = request.stages != 0 ? request.stages : shaderStagesOf(pass.kind);
   const AccessRules rules = rulesOf(request.usage, request.mode, stages);
-  checkAccess(declaration, request, rules);
-  const Subresources range = checkedRange(declaration, request);
+  if (!plainlyRight(request, resource, rules)) checkAccess(declaration, request, rules);
+  const Subresources range = isWhole(request.range, resource) ? wholeOf(resource) : checkedRange(declaration, request);
   const bool again = usedBefore(declaration, request.pass, request.resource);
   if (again) checkConflicts(declaration, request, range, rules.layout);
-  DeclaredAccess access;
-  access.pass = request.pass;
-  access.resource = request.resource;
+  DeclaredAccess& access = append(declaration, request.pass, request.resource);
   access.usage = request.usage;
   access.mode = request.mode;
   access.role = request.role;
@@ -82,7 +99,6 @@ uint32_t addAccess(Declaration& declaration, const AccessRequest& request) {
   access.access = rules.access;
   access.clear = request.clear;
   access.where = request.where;
-  append(declaration, access);
   if (again && resource.isImage) agreeOnLayouts(declaration, request.pass, request.resource);
   return request.mode == AccessMode::read ? resource.version : ++resource.version;
 }

@@ -20,11 +20,13 @@ class Hash {
     static_assert(std::has_unique_object_representations_v<T> && sizeof(T) % 8 == 0);
     uint64_t words[sizeof(T) / 8];
     std::memcpy(words, &value, sizeof(T));
-    std::size_t i = 0;
-    for (; i + 1 < std::size(words); i += 2) mix(words[i], words[i + 1]);
-    if (i < std::size(words)) mix(words[i], kSecond);
+    for (std::size_t i = 0; i < std::size(words); i += 2) {
+      // Two chains of products, since each one waits for the last.
+      uint64_t& state = i % 4 == 0 ? even_ : odd_;
+      state = product(words[i] ^ kFirst, (i + 1 < std::size(words) ? words[i + 1] : kSecond) ^ state);
+    }
   }
-  uint64_t value() const { return product(state_ ^ kFirst, kSecond); }
+  uint64_t value() const { return product(even_ ^ kFirst, product(odd_ ^ kSecond, kFirst)); }
 
  private:
   static constexpr uint64_t kFirst = 0x2D358DCCAA6C78A5ull, kSecond = 0x8BB84B93962EACC9ull;
@@ -33,8 +35,7 @@ class Hash {
     const Wide wide = static_cast<Wide>(a) * b;
     return static_cast<uint64_t>(wide) ^ static_cast<uint64_t>(wide >> 64);
   }
-  void mix(uint64_t a, uint64_t b) { state_ = product(a ^ kFirst, b ^ state_); }
-  uint64_t state_ = 0x243F6A8885A308D3ull;
+  uint64_t even_ = 0x243F6A8885A308D3ull, odd_ = 0x13198A2E03707344ull;
 };
 
 struct StateWords {
