@@ -136,7 +136,19 @@ std::vector<HeapGroup> groupByMemory(const Declaration& declaration, const std::
   return groups;
 }
 
-void packHeaps(const Declaration& declaration, const std::vector<ResourceUse>& uses, bool aliasing, Plan& plan) {
+Packing pack(std::span<const AliasItem> items, Aliasing aliasing) {
+  switch (aliasing) {
+    case Aliasing::none:
+      return packSeparately(items);
+    case Aliasing::fast:
+      return packFast(items);
+    case Aliasing::best:
+      return packBest(items);
+  }
+  return {};
+}
+
+void packHeaps(const Declaration& declaration, const std::vector<ResourceUse>& uses, Aliasing aliasing, Plan& plan) {
   std::vector<AliasItem> all;
   for (const HeapGroup& group : groupByMemory(declaration, uses, plan)) {
     std::vector<AliasItem> items;
@@ -147,7 +159,7 @@ void packHeaps(const Declaration& declaration, const std::vector<ResourceUse>& u
                        .first = placement.firstStep,
                        .last = placement.lastStep});
     }
-    const Packing packing = aliasing ? packAliased(items) : packSeparately(items);
+    const Packing packing = pack(items, aliasing);
     for (uint32_t i = 0; i < group.placements.size(); ++i) {
       plan.placements[group.placements[i]].heap = static_cast<uint32_t>(plan.heaps.size());
       plan.placements[group.placements[i]].offset = packing.offsets[i];

@@ -60,6 +60,13 @@ enum class BarrierPlacement : uint8_t {
   fewestBatches,  ///< Together with others wherever that is allowed: the smallest number of batches for the order.
 };
 
+/// How resources that are not alive at the same time share memory.
+enum class Aliasing : uint8_t {
+  none,  ///< Every resource has its own memory (to measure what sharing saves).
+  fast,  ///< Below 0.1 µs a resource, for graphs whose structure changes from frame to frame.
+  best,  ///< Nearest to the lower bound; up to some milliseconds, once per structure, since plans are cached.
+};
+
 struct CompileOptions {
   Order order = Order::declared;
   BarrierPlacement barriers = BarrierPlacement::beforeUse;
@@ -73,7 +80,7 @@ struct CompileOptions {
   /// The device may begin a frame before it has finished the one before: first uses wait for the last uses of the
   /// same memory in the frame before. Needed when several frames are in flight; off, the host waits in between.
   bool overlappingFrames = false;
-  bool aliasing = true;  ///< Off: every resource has its own memory (to measure what aliasing saves).
+  Aliasing aliasing = Aliasing::best;
   bool operator==(const CompileOptions&) const = default;
 };
 

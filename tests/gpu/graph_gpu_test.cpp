@@ -42,12 +42,13 @@ class EveryTechnique : public GraphOnDevice, public testing::WithParamInterface<
 
 // Memory that is shared wrongly shows here: with aliasing off nothing is shared.
 TEST_P(EveryTechnique, GivesTheSamePictureWithAndWithoutAliasingInEveryOrder) {
+  using rendergraph::Aliasing;
   using rendergraph::Order;
   host::Renderer renderer(support::device(), busyScene(), std::nullopt);
-  const auto plain = renderWith(renderer, GetParam(), {.compile = {.aliasing = false}});
+  const auto plain = renderWith(renderer, GetParam(), {.compile = {.aliasing = Aliasing::none}});
   EXPECT_EQ(plain.capture.memory.peakBytes, plain.capture.memory.unaliasedBytes);
   for (const Order order : {Order::declared, Order::leastMemory, Order::mostOverlap}) {
-    const auto shared = renderWith(renderer, GetParam(), {.compile = {.order = order, .aliasing = true}});
+    const auto shared = renderWith(renderer, GetParam(), {.compile = {.order = order, .aliasing = Aliasing::best}});
     EXPECT_LE(shared.capture.memory.peakBytes, plain.capture.memory.peakBytes);
     EXPECT_TRUE(shared.color.samples == plain.color.samples) << static_cast<int>(order);
     EXPECT_TRUE(shared.depth.samples == plain.depth.samples) << static_cast<int>(order);

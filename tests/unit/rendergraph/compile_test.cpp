@@ -313,7 +313,8 @@ TEST(StructuralHash, MissesNoFieldThatThePlanDependsOn) {
       {"mode", [](Fields& f) { f.modify = true; }},
       {"another access", [](Fields& f) { f.extraRead = true; }},
       {"order", [](Fields& f) { f.options.order = Order::leastMemory; }},
-      {"aliasing", [](Fields& f) { f.options.aliasing = false; }},
+      {"aliasing none", [](Fields& f) { f.options.aliasing = Aliasing::none; }},
+      {"aliasing fast", [](Fields& f) { f.options.aliasing = Aliasing::fast; }},
   };
   std::map<uint64_t, std::string> seen{{Fields{}.hash(), "nothing"}};
   for (const auto& [what, change] : changes) {
