@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "rendergraph/aliasing.h"
+#include "rendergraph/deterministic_random.h"
 
 namespace rendergraph {
 
@@ -55,26 +56,40 @@ class Packer {
 
   Packing pack(const Ranking& ranking, Fit fit) {
     Packing packing;
-    packing.offsets.assign(items_.size(), kUnplaced);
-    for (uint32_t item : ranking) {
-      packing.offsets[item] = offsetFor(item, packing.offsets, fit);
-      packing.size = std::max(packing.size, packing.offsets[item] + items_[item].size);
-    }
+    packing.offsets.resize(items_.size());
+    repack(ranking, 0, fit, kUnplaced, packing);
     return packing;
   }
 
+  /// Places the items from `from` on in the ranking anew; those before keep their offsets. Gives up, with false, as
+  /// soon as the block would exceed `limit`; the packing is of no use then.
+  bool repack(const Ranking& ranking, std::size_t from, Fit fit, VkDeviceSize limit, Packing& packing) {
+    packing.size = 0;
+    for (std::size_t i = 0; i < from; ++i) {
+      packing.size = std::max(packing.size, packing.offsets[ranking[i]] + items_[ranking[i]].size);
+    }
+    for (std::size_t i = from; i < ranking.size(); ++i) packing.offsets[ranking[i]] = kUnplaced;
+    for (std::size_t i = from; i < ranking.size(); ++i) {
+      const uint32_t item = ranking[i];
+      packing.offsets[item] = offsetFor(item, packing.offsets, fit);
+      packing.size = std::max(packing.size, packing.offsets[item] + items_[item].size);
+      ++placements_;
+      if (packing.size > limit) return false;
+    }
+    return true;
+  }
+
   const Conflicts& conflicts() const { return conflicts_; }
+  /// So far.
+  uint64_t placements() const { return placements_; }
 
  private:
   static constexpr VkDeviceSize kUnplaced = ~VkDeviceSize{0};
+  using Interval = std::pair<VkDeviceSize, VkDeviceSize>;
 
   VkDeviceSize offsetFor(uint32_t item, const std::vector<VkDeviceSize>& offsets, Fit fit) {
     const AliasItem& wanted = items_[item];
-    taken_.clear();
-    for (uint32_t other : conflicts_.of(item)) {
-      if (offsets[other] != kUnplaced) taken_.emplace_back(offsets[other], offsets[other] + items_[other].size);
-    }
-    std::sort(taken_.begin(), taken_.end());
+    gather(item, offsets);
     VkDeviceSize cursor = 0, best = kUnplaced, bestGap = kUnplaced;
     for (const auto& [begin, end] : taken_) {
       const VkDeviceSize offset = alignUp(cursor, wanted.alignment);
@@ -90,9 +105,26 @@ class Packer {
     return best != kUnplaced ? best : alignUp(cursor, wanted.alignment);
   }
 
+  /// What the placed items alive with this one take, in rising order.
+  void gather(uint32_t item, const std::vector<VkDeviceSize>& offsets) {
+    constexpr std::size_t kFew = 24;  // Up to which inserting one by one is faster than sorting.
+    taken_.clear();
+    for (uint32_t other : conflicts_.of(item)) {
+      if (offsets[other] == kUnplaced) continue;
+      const Interval interval(offsets[other], offsets[other] + items_[other].size);
+      taken_.push_back(interval);
+      if (taken_.size() > kFew) continue;
+      std::size_t place = taken_.size() - 1;
+      for (; place > 0 && taken_[place - 1].first > interval.first; --place) taken_[place] = taken_[place - 1];
+      taken_[place] = interval;
+    }
+    if (taken_.size() > kFew) std::sort(taken_.begin(), taken_.end());
+  }
+
   std::span<const AliasItem> items_;
   Conflicts conflicts_;
-  std::vector<std::pair<VkDeviceSize, VkDeviceSize>> taken_;
+  std::vector<Interval> taken_;
+  uint64_t placements_ = 0;
 };
 
 /// Items sorted by falling key, ties by index.
@@ -118,37 +150,27 @@ Ranking rankedByCrowding(std::span<const AliasItem> items) {
   });
 }
 
-/// Small deterministic generator (splitmix64): equal input must give equal output on every platform.
-class Generator {
- public:
-  uint32_t below(uint32_t bound) {
-    state_ += 0x9E3779B97F4A7C15ull;
-    uint64_t z = state_;
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ull;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBull;
-    return static_cast<uint32_t>(((z ^ (z >> 31)) >> 32) * bound >> 32);
-  }
-
- private:
-  uint64_t state_ = 0;
-};
-
 /// Moves an item that reaches the top to an earlier place in the ranking, as long as the block does not grow.
 class Improver {
  public:
   Improver(std::span<const AliasItem> items, Packer& packer, VkDeviceSize bound)
       : items_(items), packer_(packer), bound_(bound) {}
 
-  void improve(Ranking ranking, Fit fit, Packing& best, uint32_t attempts) {
+  /// `placements`: how many the search may cost.
+  void improve(Ranking ranking, Fit fit, Packing& best, uint64_t placements) {
     Packing current = packer_.pack(ranking, fit);
-    for (uint32_t attempt = 0; attempt < attempts && best.size > bound_; ++attempt) {
-      Ranking changed = ranking;
-      promote(changed, topItem(current));
-      Packing packing = packer_.pack(changed, fit);
-      if (packing.size > current.size) continue;
-      ranking = std::move(changed);
-      current = std::move(packing);
-      if (current.size < best.size) best = current;
+    Packing packing = current;
+    const uint64_t end = packer_.placements() + placements;
+    while (packer_.placements() < end && best.size > bound_) {
+      const Move move = promotion(ranking, topItem(current));
+      apply(ranking, move);
+      packing.offsets = current.offsets;
+      if (packer_.repack(ranking, move.to, fit, current.size, packing)) {
+        std::swap(current, packing);
+        if (current.size < best.size) best = current;
+      } else {
+        undo(ranking, move);
+      }
     }
   }
 
@@ -165,22 +187,31 @@ class Improver {
     return others[random_.below(static_cast<uint32_t>(others.size()))];
   }
 
-  void promote(Ranking& ranking, uint32_t item) {
-    const auto place = std::find(ranking.begin(), ranking.end(), item);
-    const auto target = ranking.begin() + random_.below(static_cast<uint32_t>(place - ranking.begin()) + 1);
-    std::rotate(target, place, place + 1);
+  struct Move {
+    std::size_t from, to;  // Places in the ranking, the second not later.
+  };
+  Move promotion(const Ranking& ranking, uint32_t item) {
+    const auto from = static_cast<std::size_t>(std::find(ranking.begin(), ranking.end(), item) - ranking.begin());
+    return {from, random_.below(static_cast<uint32_t>(from) + 1)};
+  }
+  static auto at(Ranking& ranking, std::size_t place) { return ranking.begin() + static_cast<std::ptrdiff_t>(place); }
+  static void apply(Ranking& ranking, const Move& move) {
+    std::rotate(at(ranking, move.to), at(ranking, move.from), at(ranking, move.from) + 1);
+  }
+  static void undo(Ranking& ranking, const Move& move) {
+    std::rotate(at(ranking, move.to), at(ranking, move.to) + 1, at(ranking, move.from) + 1);
   }
 
   std::span<const AliasItem> items_;
   Packer& packer_;
   VkDeviceSize bound_;
-  Generator random_;
+  DeterministicRandom random_;
   std::vector<uint32_t> top_;
 };
 
 // Placements that the search may cost in all: keeps it at some milliseconds however large the graph is. The plan
 // cache pays for it once per structure.
-constexpr uint32_t kSearchBudget = 60'000;
+constexpr uint64_t kSearchBudget = 150'000;
 
 // Pairs of items alive together up to which they are listed: some tens of megabytes and milliseconds. Only graphs of
 // thousands of resources that nearly all live throughout have more, and those leave little to share.
@@ -234,8 +265,7 @@ Packing packBest(std::span<const AliasItem> items) {
   }
   std::stable_sort(starts.begin(), starts.end(), [](const Start& a, const Start& b) { return a.size < b.size; });
   Improver improver(items, packer, bound);
-  const uint32_t attempts = kSearchBudget / static_cast<uint32_t>(items.size()) / 3;
-  for (std::size_t i = 0; i < 3; ++i) improver.improve(*starts[i].ranking, starts[i].fit, best, attempts);
+  for (std::size_t i = 0; i < 3; ++i) improver.improve(*starts[i].ranking, starts[i].fit, best, kSearchBudget / 3);
   return best;
 }
 

@@ -148,7 +148,8 @@ Packing pack(std::span<const AliasItem> items, Aliasing aliasing) {
   return {};
 }
 
-void packHeaps(const Declaration& declaration, const std::vector<ResourceUse>& uses, Aliasing aliasing, Plan& plan) {
+void packHeaps(const Declaration& declaration, const std::vector<ResourceUse>& uses, const PassOrder& order,
+               Aliasing aliasing, Plan& plan) {
   std::vector<AliasItem> all;
   for (const HeapGroup& group : groupByMemory(declaration, uses, plan)) {
     std::vector<AliasItem> items;
@@ -156,8 +157,8 @@ void packHeaps(const Declaration& declaration, const std::vector<ResourceUse>& u
       const Placement& placement = plan.placements[index];
       items.push_back({.size = placement.size,
                        .alignment = std::max<VkDeviceSize>(1, uses[placement.resource].requirements.alignment),
-                       .first = placement.firstStep,
-                       .last = placement.lastStep});
+                       .first = order.timeOf(placement.firstStep),
+                       .last = order.timeOf(placement.lastStep)});
     }
     const Packing packing = pack(items, aliasing);
     for (uint32_t i = 0; i < group.placements.size(); ++i) {
@@ -195,20 +196,20 @@ Plan compile(const Declaration& declaration, const CompileOptions& options, cons
 
   std::vector<VkDeviceSize> bytes;
   for (const ResourceUse& use : uses) bytes.push_back(use.requirements.size);
-  const std::vector<uint32_t> order =
-      orderPasses(declaration, culling.alive, orderingEdges(declaration, cells, culling.alive), bytes, options.order);
-  if (order.size() + culling.culled.size() != declaration.passes.size()) {
-    throwCycle(declaration, culling.alive, order);
+  const PassOrder order =
+      orderPasses(declaration, culling.alive, orderingEdges(declaration, cells, culling.alive), bytes, options);
+  if (order.passes.size() + culling.culled.size() != declaration.passes.size()) {
+    throwCycle(declaration, culling.alive, order.passes);
   }
 
   Plan plan;
   plan.culled = std::move(culling.culled);
-  plan.passes.resize(order.size());
-  for (uint32_t step = 0; step < order.size(); ++step) plan.passes[step].pass = order[step];
+  plan.passes.resize(order.passes.size());
+  for (uint32_t step = 0; step < order.passes.size(); ++step) plan.passes[step].pass = order.passes[step];
   addSubmissions(declaration, plan);
   addPlacements(declaration, uses, plan);
-  packHeaps(declaration, uses, options.aliasing, plan);
-  const Timeline timeline(declaration, cells, order);
+  packHeaps(declaration, uses, order, options.aliasing, plan);
+  const Timeline timeline(declaration, cells, order.passes);
   planAttachments(declaration, cells, timeline, plan);
   planBarriers(declaration, cells, timeline, plan);
   return plan;

@@ -52,6 +52,9 @@ enum class Order : uint8_t {
   declared,     ///< As the passes were declared.
   leastMemory,  ///< Greedy: the ready pass that keeps the fewest bytes alive.
   mostOverlap,  ///< Dependent passes far apart, so that barriers wait for nothing.
+  /// In as few groups without a barrier inside as fit in CompileOptions::memoryBudget. Memory changes hands between
+  /// groups only; BarrierPlacement::fewestBatches then needs one batch a group. Up to some milliseconds.
+  fewestBatches,
 };
 
 /// Where a barrier stands between the two uses that it separates.
@@ -69,6 +72,10 @@ enum class Aliasing : uint8_t {
 
 struct CompileOptions {
   Order order = Order::declared;
+  /// Order::fewestBatches: bytes of the graph's own resources that may be alive at once, as a multiple of what the
+  /// declared order needs, at least 0. Small: fewest bytes, a batch before nearly every pass; infinity: no more
+  /// batches than the longest chain of passes asks for. 1 costs no memory and is usually near that.
+  float memoryBudget = 1.0f;
   BarrierPlacement barriers = BarrierPlacement::beforeUse;
   /// Barriers whose sides have at least this many steps between them are split into an event that is set and one
   /// that is waited for, so that what lies between fills the wait; 0: none is split.

@@ -9,88 +9,13 @@
 
 #include "rendergraph/declaration.h"
 #include "rendergraph/dependencies.h"
+#include "rendergraph/grouping.h"
+#include "rendergraph/live_bytes.h"
+#include "rendergraph/waiting.h"
 
 namespace rendergraph {
 
 namespace {
-
-/// Distinct resources of every pass that cost memory.
-class PassMemory {
- public:
-  PassMemory(const Declaration& declaration, std::span<const uint8_t> alive, std::span<const VkDeviceSize> bytes)
-      : bytes_(bytes), uses_(bytes.size(), 0), started_(bytes.size(), 0) {
-    std::vector<uint32_t> lastSeen(bytes.size(), kNone);
-    starts_.push_back(0);
-    for (uint32_t pass = 0; pass < declaration.passes.size(); ++pass) {
-      if (alive[pass]) {
-        for (const DeclaredAccess& access : declaration.accessesOfPass(pass)) {
-          if (bytes[access.resource] == 0 || lastSeen[access.resource] == pass) continue;
-          lastSeen[access.resource] = pass;
-          resources_.push_back(access.resource);
-          ++uses_[access.resource];
-        }
-      }
-      starts_.push_back(static_cast<uint32_t>(resources_.size()));
-    }
-    // What leaves the graph stays until the end.
-    for (uint32_t resource = 0; resource < bytes.size(); ++resource) {
-      if (declaration.resources[resource].exported) ++uses_[resource];
-    }
-  }
-
-  struct Change {
-    int64_t after = 0;   // Bytes alive more (or fewer) once the pass is done.
-    int64_t during = 0;  // Bytes alive more while it runs.
-    auto operator<=>(const Change&) const = default;
-  };
-  Change changeBy(uint32_t pass) const {
-    Change change;
-    for (uint32_t resource : of(pass)) {
-      const auto size = static_cast<int64_t>(bytes_[resource]);
-      if (!started_[resource]) change.during += size;
-      if (uses_[resource] == 1) change.after -= size;
-    }
-    change.after += change.during;
-    return change;
-  }
-  void run(uint32_t pass) {
-    for (uint32_t resource : of(pass)) {
-      started_[resource] = 1;
-      --uses_[resource];
-    }
-  }
-
- private:
-  std::span<const uint32_t> of(uint32_t pass) const {
-    return {resources_.data() + starts_[pass], resources_.data() + starts_[pass + 1]};
-  }
-  std::span<const VkDeviceSize> bytes_;
-  std::vector<uint32_t> uses_;  // Remaining.
-  std::vector<uint8_t> started_;
-  std::vector<uint32_t> starts_, resources_;
-};
-
-/// Predecessor counting shared by the policies.
-class Waiting {
- public:
-  Waiting(std::span<const Edge> edges, uint32_t passes)
-      : successors_(edges, passes, Adjacency::By::from), open_(passes, 0) {
-    for (const Edge& edge : edges) ++open_[edge.to];
-  }
-  bool ready(uint32_t pass) const { return open_[pass] == 0; }
-  /// Calls use(pass) for every pass that becomes ready because this one is done.
-  template <class Use>
-  void finish(uint32_t pass, Use&& use) {
-    for (const Edge& edge : successors_.of(pass)) {
-      if (--open_[edge.to] == 0) use(edge.to);
-    }
-  }
-  const Adjacency& successors() const { return successors_; }
-
- private:
-  Adjacency successors_;
-  std::vector<uint32_t> open_;
-};
 
 /// Smallest key first; with keys of zero this is the order of declaration.
 std::vector<uint32_t> byPriority(std::span<const uint8_t> alive, std::span<const Edge> edges,
@@ -113,6 +38,18 @@ std::vector<uint32_t> byPriority(std::span<const uint8_t> alive, std::span<const
   return order;
 }
 
+std::vector<uint32_t> declaredOrder(std::span<const uint8_t> alive, std::span<const Edge> edges) {
+  const bool valid = std::all_of(edges.begin(), edges.end(), [](const Edge& edge) { return edge.from < edge.to; });
+  // Accesses of several passes were declared in turns.
+  if (!valid) return byPriority(alive, edges, [](uint32_t) { return 0u; });
+  std::vector<uint32_t> order;
+  order.reserve(alive.size());
+  for (uint32_t pass = 0; pass < alive.size(); ++pass) {
+    if (alive[pass]) order.push_back(pass);
+  }
+  return order;
+}
+
 /// Longest chain of predecessors of each pass. `order` is any valid order.
 std::vector<uint32_t> levels(std::span<const uint32_t> order, std::span<const Edge> edges, uint32_t passes) {
   const Adjacency successors(edges, passes, Adjacency::By::from);
@@ -123,61 +60,107 @@ std::vector<uint32_t> levels(std::span<const uint32_t> order, std::span<const Ed
   return level;
 }
 
-std::vector<uint32_t> greedyMemory(const Declaration& declaration, std::span<const uint8_t> alive,
-                                   std::span<const Edge> edges, std::span<const VkDeviceSize> bytes) {
-  const auto passes = static_cast<uint32_t>(alive.size());
-  Waiting waiting(edges, passes);
-  PassMemory memory(declaration, alive, bytes);
-  std::vector<uint32_t> ready, order;
-  for (uint32_t pass = 0; pass < passes; ++pass) {
-    if (alive[pass] && waiting.ready(pass)) ready.push_back(pass);
+/// The ready pass after which the fewest bytes are alive, then the one that needs fewest meanwhile.
+class LeastMemory {
+ public:
+  LeastMemory(const MemoryUse& use, std::span<const uint8_t> alive, std::span<const Edge> edges)
+      : use_(use),
+        waiting_(edges, static_cast<uint32_t>(alive.size())),
+        bytes_(use, Direction::forward),
+        done_(alive.size(), 0) {
+    for (uint32_t pass = 0; pass < alive.size(); ++pass) {
+      if (alive[pass] && waiting_.ready(pass)) push(pass);
+    }
   }
-  while (!ready.empty()) {
-    const auto best = std::min_element(ready.begin(), ready.end(), [&](uint32_t a, uint32_t b) {
-      return std::tuple(memory.changeBy(a), a) < std::tuple(memory.changeBy(b), b);
-    });
-    const uint32_t pass = *best;
-    ready.erase(best);
-    memory.run(pass);
-    order.push_back(pass);
-    waiting.finish(pass, [&](uint32_t next) { ready.push_back(next); });
-  }
-  return order;
-}
 
-int64_t peakOf(const Declaration& declaration, std::span<const uint8_t> alive, std::span<const uint32_t> order,
-               std::span<const VkDeviceSize> bytes) {
-  PassMemory memory(declaration, alive, bytes);
-  int64_t live = 0, peak = 0;
-  for (uint32_t pass : order) {
-    const PassMemory::Change change = memory.changeBy(pass);
-    peak = std::max(peak, live + change.during);
-    live += change.after;
-    memory.run(pass);
+  std::vector<uint32_t> order() {
+    std::vector<uint32_t> order;
+    while (!ready_.empty()) {
+      const uint32_t pass = ready_.top().pass;
+      ready_.pop();
+      if (done_[pass]) continue;
+      done_[pass] = 1;
+      order.push_back(pass);
+      run(pass);
+      waiting_.finish(pass, [&](uint32_t next) { push(next); });
+    }
+    return order;
   }
-  return peak;
+
+ private:
+  struct Entry {
+    int64_t after, during;  // Bytes alive more once the pass is done, and while it runs.
+    uint32_t pass;
+    auto operator<=>(const Entry&) const = default;
+  };
+
+  // What a pass costs only falls, when a resource of it comes alive or it becomes the last user. Then it is queued
+  // once more; the dearer entry comes up when the pass is done, and is dropped.
+  void push(uint32_t pass) {
+    const int64_t added = bytes_.added(pass);
+    ready_.push({added - bytes_.freed(pass), added, pass});
+  }
+  void run(uint32_t pass) {
+    changed_.clear();
+    for (uint32_t resource : use_.ofPass(pass)) {
+      if (!bytes_.started(resource) || bytes_.usesLeft(resource) == 2) changed_.push_back(resource);
+    }
+    bytes_.begin(pass);
+    bytes_.end(pass);
+    for (uint32_t resource : changed_) {
+      for (uint32_t user : use_.usersOf(resource)) {
+        if (!done_[user] && waiting_.ready(user)) push(user);
+      }
+    }
+  }
+
+  const MemoryUse& use_;
+  Waiting waiting_;
+  LiveBytes bytes_;
+  std::vector<uint8_t> done_;
+  std::vector<uint32_t> changed_;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> ready_;
+};
+
+PassOrder fewestBatches(const MemoryUse& use, std::span<const Edge> edges, std::span<const uint32_t> declared,
+                        double memoryBudget) {
+  const auto budget = memoryBudget * static_cast<double>(peakBytes(use, declared));
+  constexpr double kMost = 1e18;  // More than any device has, and within int64_t.
+  const std::vector<uint32_t> groupOf =
+      groupPasses(use, edges, declared, static_cast<int64_t>(std::clamp(budget, 0.0, kMost)));
+  PassOrder order{.passes = {declared.begin(), declared.end()}, .groups = {}};
+  std::stable_sort(order.passes.begin(), order.passes.end(),
+                   [&](uint32_t a, uint32_t b) { return groupOf[a] < groupOf[b]; });
+  for (uint32_t pass : order.passes) order.groups.push_back(groupOf[pass]);
+  return order;
 }
 
 }  // namespace
 
-std::vector<uint32_t> orderPasses(const Declaration& declaration, std::span<const uint8_t> alive,
-                                  std::span<const Edge> edges, std::span<const VkDeviceSize> bytes, Order policy) {
-  std::vector<uint32_t> declared = byPriority(alive, edges, [](uint32_t) { return 0u; });
-  switch (policy) {
+PassOrder orderPasses(const Declaration& declaration, std::span<const uint8_t> alive, std::span<const Edge> edges,
+                      std::span<const VkDeviceSize> bytes, const CompileOptions& options) {
+  std::vector<uint32_t> declared = declaredOrder(alive, edges);
+  if (declared.size() < static_cast<std::size_t>(std::count(alive.begin(), alive.end(), 1))) {
+    return {.passes = std::move(declared), .groups = {}};
+  }
+  switch (options.order) {
     case Order::declared:
       break;
     case Order::leastMemory: {
       // Greedy choices can lose against an order that a person chose well.
-      std::vector<uint32_t> greedy = greedyMemory(declaration, alive, edges, bytes);
-      if (peakOf(declaration, alive, greedy, bytes) < peakOf(declaration, alive, declared, bytes)) return greedy;
+      const MemoryUse use(declaration, alive, bytes);
+      std::vector<uint32_t> greedy = LeastMemory(use, alive, edges).order();
+      if (peakBytes(use, greedy) < peakBytes(use, declared)) return {.passes = std::move(greedy), .groups = {}};
       break;
     }
     case Order::mostOverlap: {
       const std::vector<uint32_t> level = levels(declared, edges, static_cast<uint32_t>(alive.size()));
-      return byPriority(alive, edges, [&](uint32_t pass) { return level[pass]; });
+      return {.passes = byPriority(alive, edges, [&](uint32_t pass) { return level[pass]; }), .groups = {}};
     }
+    case Order::fewestBatches:
+      return fewestBatches(MemoryUse(declaration, alive, bytes), edges, declared, options.memoryBudget);
   }
-  return declared;
+  return {.passes = std::move(declared), .groups = {}};
 }
 
 }  // namespace rendergraph

@@ -1,6 +1,7 @@
 // The key of the plan cache: every byte of the structures that compile() reads, and the options. Names, recordings,
 // clear values, source locations and the host's Vulkan objects are not in them, so that changing those keeps the plan.
 // The mixing is that of wyhash (Wang Yi, "wyhash", public domain): 128-bit products of 16 bytes at a time.
+#include <bit>
 #include <cstring>
 #include <iterator>
 #include <type_traits>
@@ -45,7 +46,7 @@ struct StateWords {
 
 struct Head {
   uint64_t resources, passes, accesses;
-  uint32_t order, aliasing, barriers, splitDistance, mergeRasterPasses, useQueues, overlappingFrames, unused;
+  uint32_t order, aliasing, barriers, splitDistance, mergeRasterPasses, useQueues, overlappingFrames, memoryBudget;
 };
 
 }  // namespace
@@ -62,7 +63,7 @@ uint64_t structuralHash(const Declaration& declaration, const CompileOptions& op
                 .mergeRasterPasses = options.mergeRasterPasses,
                 .useQueues = options.useQueues,
                 .overlappingFrames = options.overlappingFrames,
-                .unused = 0});
+                .memoryBudget = std::bit_cast<uint32_t>(options.memoryBudget)});
   for (const DeclaredResource& resource : declaration.resources) {
     hash.add<ResourceStructure>(resource);
     if (!resource.stated) continue;

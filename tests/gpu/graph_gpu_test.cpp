@@ -47,7 +47,7 @@ TEST_P(EveryTechnique, GivesTheSamePictureWithAndWithoutAliasingInEveryOrder) {
   host::Renderer renderer(support::device(), busyScene(), std::nullopt);
   const auto plain = renderWith(renderer, GetParam(), {.compile = {.aliasing = Aliasing::none}});
   EXPECT_EQ(plain.capture.memory.peakBytes, plain.capture.memory.unaliasedBytes);
-  for (const Order order : {Order::declared, Order::leastMemory, Order::mostOverlap}) {
+  for (const Order order : {Order::declared, Order::leastMemory, Order::mostOverlap, Order::fewestBatches}) {
     const auto shared = renderWith(renderer, GetParam(), {.compile = {.order = order, .aliasing = Aliasing::best}});
     EXPECT_LE(shared.capture.memory.peakBytes, plain.capture.memory.peakBytes);
     EXPECT_TRUE(shared.color.samples == plain.color.samples) << static_cast<int>(order);

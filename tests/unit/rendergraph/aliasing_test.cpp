@@ -128,8 +128,8 @@ Ratios corpusRatios(corpus::Workload workload, Aliasing aliasing) {
 TEST(Aliasing, CorpusStaysCloseToTheLowerBound) {
   for (const auto& [workload, name] : corpus::kWorkloads) {
     const Ratios best = corpusRatios(workload, Aliasing::best);
-    EXPECT_LE(best.mean, 1.02) << name;
-    EXPECT_LE(best.worst, 1.12) << name;
+    EXPECT_LE(best.mean, 1.005) << name;
+    EXPECT_LE(best.worst, 1.06) << name;
     EXPECT_LE(corpusRatios(workload, Aliasing::fast).mean, 1.1) << name;
   }
 }

@@ -313,6 +313,7 @@ TEST(StructuralHash, MissesNoFieldThatThePlanDependsOn) {
       {"mode", [](Fields& f) { f.modify = true; }},
       {"another access", [](Fields& f) { f.extraRead = true; }},
       {"order", [](Fields& f) { f.options.order = Order::leastMemory; }},
+      {"memory budget", [](Fields& f) { f.options.memoryBudget = 1.5f; }},
       {"aliasing none", [](Fields& f) { f.options.aliasing = Aliasing::none; }},
       {"aliasing fast", [](Fields& f) { f.options.aliasing = Aliasing::fast; }},
   };

@@ -12,7 +12,9 @@ using namespace rendergraph;
 
 namespace {
 
-constexpr Order kOrders[] = {Order::declared, Order::leastMemory, Order::mostOverlap};
+constexpr Order kOrders[] = {Order::declared, Order::leastMemory, Order::mostOverlap, Order::fewestBatches,
+                             Order::fewestBatches};
+constexpr float kBudgets[] = {1.0f, 0.0f, 1.2f, 1e9f};
 constexpr Aliasing kAliasings[] = {Aliasing::none, Aliasing::fast, Aliasing::best, Aliasing::fast};
 
 struct Options {
@@ -23,7 +25,8 @@ struct Options {
 Options optionsFor(uint32_t seed) {
   // Mostly small graphs, where a failing seed is easy to read; every 32nd has 200 passes.
   const uint32_t passes = seed % 32 == 31 ? 200 : 4 + seed % 40;
-  return {{.order = kOrders[seed % 3], .aliasing = kAliasings[seed % 4]}, passes};
+  return {{.order = kOrders[seed % 5], .memoryBudget = kBudgets[seed / 5 % 4], .aliasing = kAliasings[seed % 4]},
+          passes};
 }
 
 }  // namespace
