@@ -8,6 +8,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "bare_technique.h"
 #include "passes/registry.h"
 #include "rendergraph/compiler.h"
 #include "rendergraph/dump.h"
@@ -17,46 +18,14 @@ namespace {
 struct Snapshot {
   std::string file;
   std::string technique;
-  passes::ParameterSet parameters = {};
-  bool hasTransparency = false;
-  float cocScale = 20.0f;  // px·m
+  BareOptions options = {};
 };
-
-const rendergraph::AccessState kSampled = {.stages = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
-                                           .access = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
-                                           .layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
-constexpr rendergraph::AccessState kHostRead = {.stages = VK_PIPELINE_STAGE_2_HOST_BIT,
-                                                .access = VK_ACCESS_2_HOST_READ_BIT};
 
 /// The plan of a technique whose outputs are all asked for, on a device that does not exist.
 std::string textOf(const Snapshot& snapshot) {
-  const auto* technique = passes::findTechnique(snapshot.technique);
   rendergraph::Graph graph;
   passes::SceneDraw scene;
-  scene.hasTransparency = snapshot.hasTransparency;
-  passes::DofInputs inputs;
-  inputs.extent = {640, 360};
-  inputs.lens = {.cocScale = snapshot.cocScale,
-                 .focusVergence = 0.5f,
-                 .maxCocRadius = 1e30f,
-                 .vergenceScale = 100.0f,
-                 .vergenceOffset = 0.0f};
-  inputs.aperture.anamorphicRatio = 1.0f;
-  inputs.projection = {.pixelsPerTangent = 494.5f, .nearPlane = 0.01f};
-  if (technique->input == passes::TechniqueInput::scene) {
-    inputs.scene = &scene;
-  } else {
-    const auto host = [&](std::string_view name, VkFormat format) {
-      return graph.importImage(name, {.format = format, .width = 640, .height = 360},
-                               {.usage = VK_IMAGE_USAGE_SAMPLED_BIT, .before = kSampled, .after = kSampled});
-    };
-    inputs.color = host("host.color", VK_FORMAT_R32G32B32A32_SFLOAT);
-    inputs.depth = host("host.depth", VK_FORMAT_D32_SFLOAT);
-  }
-  const auto out = technique->declare(graph, inputs, snapshot.parameters);
-  graph.exportImage(out.color, kSampled);
-  if (out.standardError) graph.exportImage(out.standardError, kSampled);
-  if (out.statistics) graph.exportBuffer(out.statistics, kHostRead);
+  declareBare(graph, *passes::findTechnique(snapshot.technique), snapshot.options, scene);
   std::ostringstream text;
   writeText(text, graph, compile(graph.declaration(), {}, rendergraph::NominalDevice()));
   return text.str();
@@ -66,14 +35,15 @@ std::vector<Snapshot> snapshots() {
   const passes::ParameterSet twoViews = {{"lensSamples", int64_t{2}}, {"viewsPerFrame", int64_t{2}}};
   return {
       {.file = "pinhole", .technique = "pinhole"},
-      {.file = "pinhole_transparency", .technique = "pinhole", .hasTransparency = true},
-      {.file = "pinhole_4_samples", .technique = "pinhole", .parameters = {{"pixelSamples", int64_t{4}}}},
-      {.file = "accumulation_2_views", .technique = "accumulation", .parameters = twoViews},
+      {.file = "pinhole_transparency", .technique = "pinhole", .options = {.hasTransparency = true}},
+      {.file = "pinhole_4_samples", .technique = "pinhole", .options = {.parameters = {{"pixelSamples", int64_t{4}}}}},
+      {.file = "accumulation_2_views", .technique = "accumulation", .options = {.parameters = twoViews}},
       {.file = "accumulation_2_views_transparency",
        .technique = "accumulation",
-       .parameters = twoViews,
-       .hasTransparency = true},
-      {.file = "accumulation_no_aperture", .technique = "accumulation", .parameters = twoViews, .cocScale = 0.0f},
+       .options = {.parameters = twoViews, .hasTransparency = true}},
+      {.file = "accumulation_no_aperture",
+       .technique = "accumulation",
+       .options = {.parameters = twoViews, .cocScale = 0.0f}},
       {.file = "two_pass_filter", .technique = "two_pass_filter"},
   };
 }

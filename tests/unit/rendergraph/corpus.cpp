@@ -58,27 +58,27 @@ Shape makeShape(Workload workload, uint32_t seed, uint32_t passes) {
   for (uint32_t pass = 0; pass < passes; ++pass) {
     shape.sizes.push_back(static_cast<uint32_t>(random() % std::size(kSizes)));
   }
+  std::vector<uint8_t> read(passes, 0);
+  for (const auto& inputs : shape.inputs) {
+    for (uint32_t input : inputs) read[input] = 1;
+  }
+  for (uint32_t pass = 0; pass < passes; ++pass) {
+    if (!read[pass]) shape.unread.push_back(pass);
+  }
   return shape;
 }
 
-void declare(Graph& graph, const Shape& shape) {
-  std::vector<Image> outputs;
-  std::vector<uint8_t> read(shape.inputs.size(), 0);
-  outputs.reserve(shape.inputs.size());
+void declare(Graph& graph, const Shape& shape, std::vector<Image>& outputs) {
+  outputs.clear();
   for (uint32_t i = 0; i < shape.inputs.size(); ++i) {
     const TextureSize& size = kSizes[shape.sizes[i]];
     Image image = graph.createImage("texture", {.format = size.format, .width = size.width, .height = size.height});
     Pass pass = graph.addPass("pass", PassKind::compute);
-    for (uint32_t input : shape.inputs[i]) {
-      pass.sample(outputs[input]);
-      read[input] = 1;
-    }
+    for (uint32_t input : shape.inputs[i]) pass.sample(outputs[input]);
     outputs.push_back(pass.write(image, Usage::storage));
   }
   Pass last = graph.addPass("last", PassKind::compute);
-  for (uint32_t i = 0; i < outputs.size(); ++i) {
-    if (!read[i]) last.sample(outputs[i]);
-  }
+  for (uint32_t pass : shape.unread) last.sample(outputs[pass]);
   Image result = last.write(graph.createImage("result", {.format = VK_FORMAT_R8G8B8A8_UNORM, .width = 8, .height = 8}),
                             Usage::storage);
   graph.exportImage(

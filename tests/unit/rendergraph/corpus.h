@@ -27,12 +27,17 @@ inline constexpr std::array<NamedWorkload, 3> kWorkloads = {
 /// A workload as numbers: which earlier passes each pass reads, and which of the sizes it writes.
 struct Shape {
   std::vector<std::vector<uint32_t>> inputs;
-  std::vector<uint32_t> sizes;  ///< Index among the ten texture sizes, by pass.
+  std::vector<uint32_t> sizes;   ///< Index among the ten texture sizes, by pass.
+  std::vector<uint32_t> unread;  ///< Passes whose output no other reads.
 };
 Shape makeShape(Workload workload, uint32_t seed, uint32_t passes);
 
 /// Every pass writes one new texture; a last pass reads the outputs that nothing else reads and writes an exported
-/// image. Adds passes + 1 passes to the graph.
-void declare(rendergraph::Graph& graph, const Shape& shape);
+/// image. Adds passes + 1 passes to the graph. `outputs` is scratch, whose memory is kept by whoever measures.
+void declare(rendergraph::Graph& graph, const Shape& shape, std::vector<rendergraph::Image>& outputs);
+inline void declare(rendergraph::Graph& graph, const Shape& shape) {
+  std::vector<rendergraph::Image> outputs;
+  declare(graph, shape, outputs);
+}
 
 }  // namespace corpus

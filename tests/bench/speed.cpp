@@ -1,0 +1,140 @@
+#include "speed.h"
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+
+#include "allocations.h"
+#include "corpus.h"
+#include "rendergraph/compiler.h"
+#include "rendergraph/executor.h"
+#include "silent_backend.h"
+
+namespace bench {
+
+namespace {
+
+using namespace rendergraph;
+
+/// One frame's work, over and over on a graph that keeps its memory.
+class Frames {
+ public:
+  Frames(corpus::Workload workload, uint32_t passes) : shape_(corpus::makeShape(workload, 1, passes)) {}
+
+  const Graph& declare() {
+    graph_.reset();
+    corpus::declare(graph_, shape_, outputs_);
+    return graph_;
+  }
+  double passes() const { return static_cast<double>(shape_.inputs.size() + 1); }
+
+ private:
+  corpus::Shape shape_;
+  Graph graph_;
+  std::vector<Image> outputs_;
+};
+
+/// `step` is one frame. Reports CPU nanoseconds a pass and heap allocations a frame.
+template <class Step>
+void measure(benchmark::State& state, const Frames& frames, Step&& step) {
+  step();  // Memory that is kept from frame to frame is there from now on.
+  step();
+  const uint64_t before = allocationsSoFar();
+  step();
+  const uint64_t allocations = allocationsSoFar() - before;
+  for (auto _ : state) step();
+  state.counters["allocations"] = static_cast<double>(allocations);
+  state.counters["passes"] = frames.passes();
+}
+
+void declareOnly(benchmark::State& state, corpus::Workload workload, uint32_t passes) {
+  Frames frames(workload, passes);
+  measure(state, frames, [&] { benchmark::DoNotOptimize(&frames.declare()); });
+}
+
+void declareAndHash(benchmark::State& state, corpus::Workload workload, uint32_t passes) {
+  Frames frames(workload, passes);
+  measure(state, frames,
+          [&] { benchmark::DoNotOptimize(structuralHash(frames.declare().declaration(), CompileOptions{})); });
+}
+
+template <Aliasing aliasing>
+void declareAndCompile(benchmark::State& state, corpus::Workload workload, uint32_t passes) {
+  Frames frames(workload, passes);
+  const NominalDevice device;
+  measure(state, frames, [&] {
+    const Plan plan = compile(frames.declare().declaration(), {.aliasing = aliasing}, device);
+    benchmark::DoNotOptimize(&plan);
+  });
+}
+
+/// Declared anew, found in the plan cache, and all its barriers recorded; the passes record nothing themselves.
+void unchangedFrame(benchmark::State& state, corpus::Workload workload, uint32_t passes) {
+  Frames frames(workload, passes);
+  SilentBackend backend;
+  Executor executor(backend);
+  measure(state, frames, [&] { executor.execute(frames.declare(), {.compile = {.aliasing = Aliasing::fast}}); });
+}
+
+struct Step {
+  const char* name;
+  void (*run)(benchmark::State&, corpus::Workload, uint32_t);
+  uint32_t mostPasses;
+};
+constexpr Step kSteps[] = {
+    {"declare", declareOnly, 10000},
+    {"declare+hash", declareAndHash, 10000},
+    {"unchanged frame", unchangedFrame, 1000},  // The backend's books grow with the square of the objects.
+    {"compile, no aliasing", declareAndCompile<Aliasing::none>, 10000},
+    {"compile, fast", declareAndCompile<Aliasing::fast>, 10000},
+    {"compile, best", declareAndCompile<Aliasing::best>, 10000},
+};
+
+/// Prints as usual, and keeps every repetition.
+class Collector : public benchmark::ConsoleReporter {
+ public:
+  Collector() : benchmark::ConsoleReporter(OO_Tabular) {}
+  void ReportRuns(const std::vector<Run>& runs) override {
+    benchmark::ConsoleReporter::ReportRuns(runs);
+    std::vector<double> times;
+    for (const Run& run : runs) {
+      if (run.run_type != Run::RT_Iteration || run.error_occurred) continue;
+      times.push_back(run.GetAdjustedCPUTime() / run.counters.at("passes"));
+    }
+    if (times.empty()) return;
+    std::sort(times.begin(), times.end());
+    const std::string name = runs.front().run_name.function_name;
+    const auto first = name.find('/'), second = name.rfind('/');
+    results.push_back({{"step", name.substr(0, first)},
+                       {"workload", name.substr(first + 1, second - first - 1)},
+                       {"passes", std::stoi(name.substr(second + 1))},
+                       {"leastNsPerPass", times.front()},
+                       {"medianNsPerPass", times[times.size() / 2]},
+                       {"allocations", static_cast<uint64_t>(runs.front().counters.at("allocations"))}});
+  }
+  nlohmann::ordered_json results = nlohmann::ordered_json::array();
+};
+
+}  // namespace
+
+void registerSpeed() {
+  for (const Step& step : kSteps) {
+    for (const auto& [workload, name] : corpus::kWorkloads) {
+      for (uint32_t passes : {10u, 100u, 1000u, 10000u}) {
+        if (passes > step.mostPasses) continue;
+        const std::string full = std::string(step.name) + "/" + std::string(name) + "/" + std::to_string(passes);
+        benchmark::RegisterBenchmark(full.c_str(), step.run, workload, passes);
+      }
+    }
+  }
+}
+
+nlohmann::ordered_json runSpeed() {
+  Collector collector;
+  benchmark::RunSpecifiedBenchmarks(&collector);
+  return std::move(collector.results);
+}
+
+}  // namespace bench
