@@ -39,7 +39,7 @@ TEST(RandomPlans, NoDependencyIsMissing) {
     const Options options = optionsFor(seed);
     declareRandom(graph, seed, options.passes);
     const Plan plan = compile(graph.declaration(), options.compile, NominalDevice());
-    const auto missing = plan_checker::findMissing(graph.declaration(), plan);
+    const auto missing = plan_checker::findMissing({graph.declaration(), plan, options.compile, NominalDevice()});
     ASSERT_TRUE(missing.empty()) << "seed " << seed << ": " << missing.front().text;
     passes += plan.passes.size();
     for (const PlannedPass& pass : plan.passes) {
@@ -61,7 +61,8 @@ TEST(RandomPlans, EveryBarrierIsNeededInEveryBit) {
     const Options options = optionsFor(seed);
     declareRandom(graph, seed, options.passes);
     const Plan plan = compile(graph.declaration(), options.compile, NominalDevice());
-    const plan_checker::Superfluous superfluous = plan_checker::findSuperfluous(graph.declaration(), plan);
+    const plan_checker::Superfluous superfluous =
+        plan_checker::findSuperfluous({graph.declaration(), plan, options.compile, NominalDevice()});
     ASSERT_TRUE(superfluous.findings.empty()) << "seed " << seed << ": " << superfluous.findings.front();
     attempts += superfluous.attempts;
   }

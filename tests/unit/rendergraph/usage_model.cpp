@@ -20,20 +20,58 @@ constexpr std::array<VkPipelineStageFlags2, kStageCount> kStages = {VK_PIPELINE_
                                                                     VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
                                                                     VK_PIPELINE_STAGE_2_HOST_BIT};
 
+constexpr StageMask kGraphicsStages = 0x1FF;  // The first nine: up to COLOR_ATTACHMENT_OUTPUT.
+
+// In the order of the mask's bits.
+constexpr std::array<VkAccessFlags2, 15> kAccesses = {VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT,
+                                                      VK_ACCESS_2_INDEX_READ_BIT,
+                                                      VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT,
+                                                      VK_ACCESS_2_UNIFORM_READ_BIT,
+                                                      VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
+                                                      VK_ACCESS_2_SHADER_STORAGE_READ_BIT,
+                                                      VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT,
+                                                      VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT,
+                                                      VK_ACCESS_2_TRANSFER_READ_BIT,
+                                                      VK_ACCESS_2_HOST_READ_BIT,
+                                                      VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                                                      VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT,
+                                                      VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
+                                                      VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                                                      VK_ACCESS_2_HOST_WRITE_BIT};
+
+bool isAttachment(Usage usage) {
+  return usage == Usage::colorAttachment || usage == Usage::depthAttachment || usage == Usage::depthReadOnly;
+}
+
 }  // namespace
 
 StageMask stageMask(VkPipelineStageFlags2 stages) {
-  if ((stages & VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT) != 0) return (1u << kStageCount) - 1;
-  StageMask mask = 0;
+  // ALL_COMMANDS is everything on the device; the host's stage must be named.
+  StageMask mask = (stages & VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT) != 0 ? kDeviceStages : 0;
+  if ((stages & VK_PIPELINE_STAGE_2_ALL_GRAPHICS_BIT) != 0) mask |= kGraphicsStages;
   for (uint32_t i = 0; i < kStageCount; ++i) mask |= (stages & kStages[i]) != 0 ? 1u << i : 0u;
   return mask;
 }
 
-VkAccessFlags2 accessMask(VkAccessFlags2 access) {
-  VkAccessFlags2 mask = access & (kReads | kWrites);
+AccessMask accessMask(VkAccessFlags2 access) {
+  AccessMask mask = 0;
+  for (uint32_t i = 0; i < kAccesses.size(); ++i) mask |= (access & kAccesses[i]) != 0 ? 1u << i : 0u;
   if ((access & VK_ACCESS_2_MEMORY_READ_BIT) != 0) mask |= kReads;
   if ((access & VK_ACCESS_2_MEMORY_WRITE_BIT) != 0) mask |= kWrites;
   return mask;
+}
+
+VkPipelineStageFlags2 stageFlags(StageMask stages) {
+  VkPipelineStageFlags2 flags = 0;
+  for (uint32_t i = 0; i < kStageCount; ++i) flags |= (stages >> i & 1) != 0 ? kStages[i] : 0;
+  return flags;
+}
+
+StageMask stagesOf(const QueueFacts& queue) {
+  StageMask stages = stageMask(VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT | VK_PIPELINE_STAGE_2_HOST_BIT);
+  if (queue.graphics) stages |= kGraphicsStages;
+  if (queue.compute) stages |= stageMask(VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT);
+  return stages;
 }
 
 VkImageLayout layoutFor(Usage usage) {
@@ -58,7 +96,7 @@ VkImageLayout layoutFor(Usage usage) {
 void addAccess(Use& use, const DeclaredAccess& access) {
   const bool reads = access.mode != AccessMode::write, writes = access.mode != AccessMode::read;
   const auto touch = [&](VkPipelineStageFlags2 stages, VkAccessFlags2 read, VkAccessFlags2 write) {
-    use.add(stageMask(stages), (reads ? read : 0) | (writes ? write : 0));
+    use.add(stageMask(stages), accessMask((reads ? read : 0) | (writes ? write : 0)));
   };
   switch (access.usage) {
     case Usage::sampled:
@@ -74,8 +112,8 @@ void addAccess(Use& use, const DeclaredAccess& access) {
     case Usage::depthAttachment:
     case Usage::depthReadOnly:  // Tested in any case.
       use.add(stageMask(VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT),
-              VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT |
-                  (writes ? VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT : 0));
+              accessMask(VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT |
+                         (writes ? VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT : 0)));
       break;
     case Usage::transferSource:
     case Usage::transferDestination:
@@ -101,6 +139,7 @@ void addAccess(Use& use, const DeclaredAccess& access) {
   }
   use.reads = use.reads || reads;
   use.writes = use.writes || writes;
+  use.onlyAttachment = use.onlyAttachment && isAttachment(access.usage);
 }
 
 }  // namespace plan_checker

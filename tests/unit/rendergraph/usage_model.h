@@ -7,28 +7,30 @@
 #include <array>
 #include <cstdint>
 
+#include "rendergraph/compiler.h"
 #include "rendergraph/declaration.h"
 
 namespace plan_checker {
 
 inline constexpr uint32_t kStageCount = 12;
 using StageMask = uint32_t;  ///< One bit for each elementary stage.
+/// The stages of the device and that of the host.
+inline constexpr StageMask kHostStage = 1u << (kStageCount - 1);
+inline constexpr StageMask kDeviceStages = kHostStage - 1;
 
-/// Every read and every write access that the graph knows.
-inline constexpr VkAccessFlags2 kReads =
-    VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_2_INDEX_READ_BIT | VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT |
-    VK_ACCESS_2_UNIFORM_READ_BIT | VK_ACCESS_2_SHADER_SAMPLED_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_READ_BIT |
-    VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT |
-    VK_ACCESS_2_TRANSFER_READ_BIT | VK_ACCESS_2_HOST_READ_BIT;
-inline constexpr VkAccessFlags2 kWrites =
-    VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT |
-    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_HOST_WRITE_BIT;
+using AccessMask = uint16_t;  ///< One bit for each elementary access: ten that read, then five that write.
+inline constexpr AccessMask kReads = 0x03FF, kWrites = 0x7C00;
 
-/// The elementary stages, and accesses, that collective flags stand for.
+/// The elementary stages, and accesses, that flags of Vulkan stand for.
 StageMask stageMask(VkPipelineStageFlags2 stages);
-VkAccessFlags2 accessMask(VkAccessFlags2 access);
+AccessMask accessMask(VkAccessFlags2 access);
+/// The flags of elementary stages.
+VkPipelineStageFlags2 stageFlags(StageMask stages);
 
-using Touches = std::array<VkAccessFlags2, kStageCount>;  // What happens at each stage.
+/// The stages that exist on a queue.
+StageMask stagesOf(const rendergraph::QueueFacts& queue);
+
+using Touches = std::array<AccessMask, kStageCount>;  ///< What happens at each stage.
 
 /// One use of a subresource by one pass, or by the host.
 struct Use {
@@ -36,8 +38,9 @@ struct Use {
   Touches touches{};
   VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
   bool reads = false, writes = false;
+  bool onlyAttachment = true;  ///< As long as nothing else is added.
 
-  void add(StageMask at, VkAccessFlags2 access) {
+  void add(StageMask at, AccessMask access) {
     stages |= at;
     for (uint32_t i = 0; i < kStageCount; ++i) {
       if ((at >> i & 1) != 0) touches[i] |= access;
