@@ -74,9 +74,9 @@ class PlanOrder {
   bool hostOrders_;
   uint32_t span_ = 0;
   std::vector<StepKeys> steps_;
-  std::vector<uint32_t> submissionOf_, renderings_;             // By step.
-  std::vector<uint32_t> begin_, atEnd_, finished_, queues_;     // By submission.
-  std::vector<bool> hostPass_;                                  // By submission.
+  std::vector<uint32_t> submissionOf_, renderings_;          // By step.
+  std::vector<uint32_t> begin_, atEnd_, finished_, queues_;  // By submission.
+  std::vector<bool> hostPass_;                               // By submission.
   std::vector<Wait> semaphores_, milestones_;
   std::vector<uint64_t> reach_;  // A row of bits for each node: what its signal covers.
   uint32_t words_ = 0;

@@ -18,7 +18,8 @@ struct OwnedBytes {
 }  // namespace
 
 PlanReplay::PlanReplay(const Setting& setting, bool hostOrders)
-    : setting_(setting), order_(setting.declaration, setting.plan, setting.options.overlappingFrames ? 2 : 1, hostOrders) {
+    : setting_(setting),
+      order_(setting.declaration, setting.plan, setting.options.overlappingFrames ? 2 : 1, hostOrders) {
   const Declaration& declaration = setting.declaration;
   std::vector<uint32_t> stepOfPass(declaration.passes.size(), UINT32_MAX);
   for (uint32_t step = 0; step < setting.plan.passes.size(); ++step) stepOfPass[setting.plan.passes[step].pass] = step;
@@ -120,8 +121,7 @@ PlanReplay::RecordTable PlanReplay::nothingLeft() const {
   return RecordTable(order_.frames(), std::vector<std::vector<Record>>(replays_.size()));
 }
 
-std::vector<Record> PlanReplay::inherited(uint32_t frame, uint32_t resource,
-                                          const RecordTable& remaining) const {
+std::vector<Record> PlanReplay::inherited(uint32_t frame, uint32_t resource, const RecordTable& remaining) const {
   std::vector<Record> result;
   for (const Occupant& occupant : before_[frame][resource]) {
     for (const Record& record : remaining[occupant.frame][occupant.resource]) {
@@ -159,7 +159,8 @@ bool PlanReplay::holds(const std::vector<Wait>& waits, uint32_t from) {
   bool holding = order_.edgesHold();
   for (uint32_t frame = 0; frame < order_.frames() && holding; ++frame) {
     for (uint32_t i : sequence_) {
-      const bool past = !setting_.declaration.resources[i].observable() && replays_[i].lastKey() < order_.keyBegin(from);
+      const bool past =
+          !setting_.declaration.resources[i].observable() && replays_[i].lastKey() < order_.keyBegin(from);
       if (frame == 0 && past) {
         remaining[0][i] = remaining_[0][i];
         continue;

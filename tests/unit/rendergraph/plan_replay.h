@@ -35,15 +35,14 @@ class PlanReplay {
   };
   std::vector<std::vector<Placed>> placeBarriers() const;
   void findPredecessors();
-  std::vector<Record> inherited(uint32_t frame, uint32_t resource,
-                                const RecordTable& remaining) const;
+  std::vector<Record> inherited(uint32_t frame, uint32_t resource, const RecordTable& remaining) const;
   RecordTable nothingLeft() const;
 
   const Setting& setting_;
   PlanOrder order_;
   std::vector<ResourceReplay> replays_;
-  std::vector<uint32_t> sequence_;                              // Resources, by first use.
-  std::vector<std::vector<std::vector<Occupant>>> before_;      // By frame and resource: earlier owners of its memory.
+  std::vector<uint32_t> sequence_;                          // Resources, by first use.
+  std::vector<std::vector<std::vector<Occupant>>> before_;  // By frame and resource: earlier owners of its memory.
   RecordTable inherited_, remaining_;
   std::vector<Finding> overlaps_;
 };

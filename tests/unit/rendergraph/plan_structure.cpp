@@ -52,8 +52,10 @@ class Structure {
     explicit Cover(std::size_t size) : times_(size, 0) {}
     void add(const Run& run) {
       for (uint32_t i = run.first; i < run.first + run.count; ++i) {
-        if (i < times_.size()) ++times_[i];
-        else outside_ = true;
+        if (i < times_.size())
+          ++times_[i];
+        else
+          outside_ = true;
       }
     }
     bool once() const {
@@ -264,8 +266,8 @@ class Structure {
                      continues(plan_.depthOf(planned), plan_.depthOf(before)),
                  step, "it continues a rendering with other attachments");
     for (const DeclaredAccess* access : accesses_[planned.pass]) {
-      const bool clears = access->role != AttachmentRole::none && access->load == LoadOp::clear &&
-                          access->mode == AccessMode::write;
+      const bool clears =
+          access->role != AttachmentRole::none && access->load == LoadOp::clear && access->mode == AccessMode::write;
       expectAtStep(!clears, step, "it continues a rendering and clears");
     }
   }

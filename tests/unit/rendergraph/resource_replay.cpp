@@ -103,11 +103,8 @@ void ResourceReplay::addHostRecords(Subresource& subresource) const {
   const AccessMask access = accessMask(declared_.before.access);
   const StageMask stages = stageMask(declared_.before.stages);
   const bool write = (access & kWrites) != 0;
-  const Record outside{.write = write,
-                       .pass = AccessPoint::kOutside,
-                       .node = order_.nodeBefore(frame_),
-                       .time = now_,
-                       .access = access};
+  const Record outside{
+      .write = write, .pass = AccessPoint::kOutside, .node = order_.nodeBefore(frame_), .time = now_, .access = access};
   for (uint32_t i = 0; i < kStageCount; ++i) {
     if ((stages >> i & 1) == 0) continue;
     Record record = outside;

@@ -45,7 +45,7 @@ struct Placed {
 
 /// One change to what the plan says.
 struct Change {
-  uint32_t placed = UINT32_MAX;  ///< Index of the barrier that is replaced.
+  uint32_t placed = UINT32_MAX;                        ///< Index of the barrier that is replaced.
   const rendergraph::ImageBarrier* barrier = nullptr;  ///< nullptr: it is left out.
   uint32_t attachment = UINT32_MAX;                    ///< Index of the attachment whose operation is DONT_CARE.
   bool load = false;                                   ///< The load operation, else the store operation.
@@ -86,7 +86,7 @@ class ResourceReplay {
     bool hasContent = false;
     bool shouldHaveContent = false;  // If nothing had dropped it.
     bool used = false, touched = false;
-    uint32_t owner = UINT32_MAX;                            // Queue family; UINT32_MAX: none yet.
+    uint32_t owner = UINT32_MAX;                          // Queue family; UINT32_MAX: none yet.
     const rendergraph::ImageBarrier* released = nullptr;  // Between release and acquire.
     std::vector<Record> records;
   };

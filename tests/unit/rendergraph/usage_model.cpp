@@ -70,7 +70,8 @@ VkPipelineStageFlags2 stageFlags(StageMask stages) {
 StageMask stagesOf(const QueueFacts& queue) {
   StageMask stages = stageMask(VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT | VK_PIPELINE_STAGE_2_HOST_BIT);
   if (queue.graphics) stages |= kGraphicsStages;
-  if (queue.compute) stages |= stageMask(VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT);
+  if (queue.compute)
+    stages |= stageMask(VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT);
   return stages;
 }
 
