@@ -116,6 +116,9 @@ class Structure {
     for (const CulledPass& culled : plan_.culled) {
       if (culled.pass < times.size()) ++times[culled.pass];
     }
+    for (uint32_t pass = 0; pass < times.size(); ++pass) {
+      if (declaration_.passes[pass].disabled) ++times[pass];  // As if it had not been declared.
+    }
     expect(std::all_of(times.begin(), times.end(), [](uint32_t n) { return n == 1; }),
            "a pass is neither executed nor culled, or more than once");
   }
