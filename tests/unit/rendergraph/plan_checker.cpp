@@ -50,6 +50,11 @@ std::vector<Weakening> weakenings(const ImageBarrier& barrier, bool image) {
   changed.newLayout = VK_IMAGE_LAYOUT_PRESENT_SRC_KHR;
   result.emplace_back("with another new layout", changed);
   changed = barrier;
+  if (barrier.oldLayout != VK_IMAGE_LAYOUT_UNDEFINED && barrier.oldLayout != barrier.newLayout) {
+    std::swap(changed.oldLayout, changed.newLayout);
+    result.emplace_back("with its layouts swapped", changed);
+  }
+  changed = barrier;
   changed.oldLayout = VK_IMAGE_LAYOUT_UNDEFINED;
   // Without a change of layout the content may be dropped or not; keeping it costs nothing.
   if (barrier.oldLayout != VK_IMAGE_LAYOUT_UNDEFINED && barrier.oldLayout != barrier.newLayout) {
@@ -177,11 +182,9 @@ std::vector<Finding> findMissing(const Setting& setting) {
 
 Superfluous findSuperfluous(const Setting& setting) {
   // Barriers that only repeat what the host's waiting gives are allowed, so it counts only where the plan needs it.
-  PlanReplay withoutHost(setting, false);
-  if (withoutHost.run().empty()) return Search(setting, withoutHost).run();
-  PlanReplay withHost(setting, true);
-  withHost.run();
-  return Search(setting, withHost).run();
+  PlanReplay withoutHost(setting, false), withHost(setting, true);
+  const bool needed = !withoutHost.run().empty() && withHost.run().empty();
+  return Search(setting, needed ? withHost : withoutHost).run();
 }
 
 uint32_t fewestBatches(const Setting& setting) {

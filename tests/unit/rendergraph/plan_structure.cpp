@@ -177,6 +177,7 @@ class Structure {
         expectAtStep(event.waitBefore == step, step, "it waits for an event of another step");
         expectAtStep(event.setAfter < step, step, "its event is not set before");
         if (event.setAfter >= step) continue;
+        expectAtStep(step - event.setAfter > options_.splitDistance, step, "its event is set too shortly before");
         const uint32_t queue = plan_.passes[step].queue;
         expectAtStep(plan_.passes[event.setAfter].queue == queue, step, "its event is set on another queue");
         const QueueFacts& facts = device_.queues()[queue];
@@ -208,38 +209,38 @@ class Structure {
 
   void checkAttachments(uint32_t step) {
     const PlannedPass& planned = plan_.passes[step];
-    std::vector<const DeclaredAccess*> colors, depths;
+    std::vector<const DeclaredAccess*> colors, depths, resolves;  // The last by colour attachment.
     for (const DeclaredAccess* access : accesses_[planned.pass]) {
-      if (access->role == AttachmentRole::color) colors.push_back(access);
-      if (access->role == AttachmentRole::depth) depths.push_back(access);
+      if (access->role == AttachmentRole::color) {
+        colors.push_back(access);
+        resolves.push_back(nullptr);
+      } else if (access->role == AttachmentRole::depth) {
+        depths.push_back(access);
+      } else if (access->role == AttachmentRole::resolve && !resolves.empty()) {
+        resolves.back() = access;
+      }
     }
-    const auto same = [&](std::span<const PlannedAttachment> some, const std::vector<const DeclaredAccess*>& accesses) {
-      return some.size() == accesses.size() &&
-             std::equal(some.begin(), some.end(), accesses.begin(), [&](const PlannedAttachment& a, const auto* b) {
-               return a.resource == b->resource && a.range == b->range && a.layout == b->layout;
-             });
+    const auto asDeclared = [&](std::span<const PlannedAttachment> some, const auto& accesses) {
+      return std::equal(some.begin(), some.end(), accesses.begin(), accesses.end(), isSame);
     };
-    const bool asDeclared = same(plan_.colorsOf(planned), colors) && same(plan_.depthOf(planned), depths);
-    expectAtStep(asDeclared, step, "its attachments are not the declared ones");
-    for (const Run& run : {planned.colors, planned.depth}) {
-      for (uint32_t i = run.first; i < run.first + run.count; ++i) checkResolve(step, plan_.attachments[i]);
-    }
+    const bool same = asDeclared(plan_.colorsOf(planned), colors) && asDeclared(plan_.depthOf(planned), depths);
+    expectAtStep(same, step, "its attachments are not the declared ones");
+    if (!same) return;
+    for (uint32_t i = 0; i < colors.size(); ++i) checkResolve(step, plan_.colorsOf(planned)[i], resolves[i]);
   }
 
-  void checkResolve(uint32_t step, const PlannedAttachment& attachment) {
-    if (attachment.resolve == PlannedAttachment::kNoResolve) return;
-    if (attachment.resolve >= plan_.attachments.size()) return expectAtStep(false, step, "no such resolve attachment");
-    const PlannedAttachment& target = plan_.attachments[attachment.resolve];
-    const std::vector<DeclaredResource>& resources = declaration_.resources;
-    expectAtStep(resources[attachment.resource].image.samples != VK_SAMPLE_COUNT_1_BIT &&
-                     resources[target.resource].image.samples == VK_SAMPLE_COUNT_1_BIT,
-                 step, "it resolves an image without samples, or to one with");
-    const auto& accesses = accesses_[plan_.passes[step].pass];
-    const bool declared = std::any_of(accesses.begin(), accesses.end(), [&](const DeclaredAccess* access) {
-      return access->resource == target.resource && access->writes() && access->range == target.range &&
-             access->layout == target.layout;
-    });
-    expectAtStep(declared, step, "it resolves to an image that the pass does not declare");
+  static bool isSame(const PlannedAttachment& planned, const DeclaredAccess* declared) {
+    return planned.resource == declared->resource && planned.range == declared->range &&
+           planned.layout == declared->layout;
+  }
+
+  void checkResolve(uint32_t step, const PlannedAttachment& attachment, const DeclaredAccess* declared) {
+    if (declared == nullptr) {
+      return expectAtStep(attachment.resolve == PlannedAttachment::kNoResolve, step, "nobody asked for this resolve");
+    }
+    const bool same =
+        attachment.resolve < plan_.attachments.size() && isSame(plan_.attachments[attachment.resolve], declared);
+    expectAtStep(same, step, "it does not resolve to the declared image");
   }
 
   void checkContinuation(uint32_t step) {

@@ -32,7 +32,7 @@ constexpr std::array<AccessState, 4> kBufferStates = {{
 
 class Generator {
  public:
-  Generator(Graph& graph, uint32_t seed) : graph_(graph), random_(seed) {}
+  Generator(Graph& graph, uint32_t seed, bool resolves) : graph_(graph), random_(seed), resolves_(resolves) {}
 
   void run(uint32_t passes) {
     const uint32_t resources = 3 + passes / 2;
@@ -44,6 +44,7 @@ class Generator {
  private:
   struct Known {
     bool isImage = true, depth = false, readOnly = false, created = true, hostVisible = false;
+    bool multisampled = false;  // Only an attachment, and resolved.
     Image image;
     Buffer buffer;
     uint32_t mips = 1, layers = 1;
@@ -65,6 +66,7 @@ class Generator {
     ImageDesc desc{
         .format = VK_FORMAT_R16G16B16A16_SFLOAT, .width = 64, .height = 64, .layers = known.layers, .mips = known.mips};
     if (known.depth) desc.format = chance(30) ? VK_FORMAT_D24_UNORM_S8_UINT : VK_FORMAT_D32_SFLOAT;
+    if (resolves_ && !known.depth && chance(20)) return addMultisampled(name, desc, known);
     bool written = true;
     switch (below(12)) {
       case 0: {
@@ -100,6 +102,15 @@ class Generator {
     known_.push_back(known);
   }
 
+  void addMultisampled(const std::string& name, ImageDesc desc, Known known) {
+    desc.samples = VK_SAMPLE_COUNT_4_BIT;
+    desc.mips = known.mips = 1;
+    known.multisampled = true;
+    known.image = graph_.createImage(name, desc);
+    known.written.assign(known.layers, false);
+    known_.push_back(known);
+  }
+
   void addBuffer(const std::string& name, Known known) {
     BufferDesc desc{.size = 64 + 64 * VkDeviceSize{below(4000)}};
     bool written = true;
@@ -129,18 +140,34 @@ class Generator {
     known_.push_back(known);
   }
 
-  void addPass(uint32_t index) {
+  PassKind someKind() {
+    if (!drawn_.empty() && chance(40)) return PassKind::raster;  // Often several in a row.
     const uint32_t roll = below(20);
-    const PassKind kind = roll < 8    ? PassKind::compute
-                          : roll < 15 ? PassKind::raster
-                          : roll < 19 ? PassKind::transfer
-                                      : PassKind::host;
+    return roll < 8    ? PassKind::compute
+           : roll < 15 ? PassKind::raster
+           : roll < 19 ? PassKind::transfer
+                       : PassKind::host;
+  }
+
+  void addPass(uint32_t index) {
+    const PassKind kind = someKind();
     Pass pass = graph_.addPass("p" + std::to_string(index), kind);
-    if (kind == PassKind::raster) addAttachments(pass, index);
-    const uint32_t accesses = 1 + below(4);
+    if (kind == PassKind::compute && chance(40)) pass.prefer(QueuePreference::asyncCompute);
+    if (kind == PassKind::transfer && chance(70)) {
+      pass.prefer(chance(70) ? QueuePreference::transfer : QueuePreference::asyncCompute);
+    }
+    const bool repeating = kind == PassKind::raster && !drawn_.empty() && chance(60);
+    if (repeating) {
+      repeatAttachments(pass, index);
+    } else {
+      drawn_.clear();
+      if (kind == PassKind::raster) addAttachments(pass, index);
+    }
+    // A pass that only draws on can share the rendering of the one before.
+    const uint32_t accesses = repeating ? below(3) : 1 + below(4);
     for (uint32_t i = 0; i < accesses; ++i) {
       Known& known = known_[pick()];
-      if (known.lastPass == index) continue;
+      if (known.lastPass == index || known.multisampled) continue;
       known.lastPass = index;
       if (known.isImage) {
         if (kind != PassKind::host) useImage(pass, kind, known);
@@ -183,34 +210,73 @@ class Generator {
     }
   }
 
+  /// An attachment of the raster pass before.
+  struct Drawn {
+    std::size_t known;
+    Subresources range;
+    bool tested = false;    // Read only.
+    bool resolved = false;  // Receives the samples of the one before it.
+  };
+
+  void draw(Pass& pass, uint32_t index, const Drawn& drawn, LoadOp load) {
+    Known& known = known_[drawn.known];
+    known.lastPass = index;
+    drawn_.push_back(drawn);
+    if (drawn.tested) return pass.depthReadOnly(known.image, drawn.range);
+    if (drawn.resolved) {
+      known.image = pass.resolve(known.image, drawn.range);
+    } else if (known.depth) {
+      known.image = pass.depth(known.image, {.load = load, .range = drawn.range});
+    } else {
+      known.image = pass.color(known.image, {.load = load, .range = drawn.range});
+    }
+    markWritten(known, drawn.range);
+  }
+
+  void repeatAttachments(Pass& pass, uint32_t index) {
+    const std::vector<Drawn> before = std::move(drawn_);
+    drawn_.clear();
+    const LoadOp load = chance(85) ? LoadOp::load : chance(50) ? LoadOp::dontCare : LoadOp::clear;
+    for (const Drawn& drawn : before) draw(pass, index, drawn, load);
+    if (before.empty()) pass.renderArea({64, 64});
+  }
+
   void addAttachments(Pass& pass, uint32_t index) {
-    const uint32_t mip = below(3), layers = 1 + below(2);
-    bool depthTaken = false, any = false;
+    const bool multisampled = resolves_ && chance(30);
+    const uint32_t mip = multisampled ? 0 : below(3), layers = 1 + below(2);
+    bool depthTaken = false;
     for (uint32_t i = 0; i < 3; ++i) {
-      Known& known = known_[pick()];
+      const std::size_t picked = pick();
+      const Known& known = known_[picked];
       const bool fits = known.isImage && !known.readOnly && known.lastPass != index && mip < known.mips &&
-                        layers <= known.layers && !(known.depth && depthTaken);
+                        layers <= known.layers && !(known.depth && (depthTaken || multisampled)) &&
+                        known.multisampled == multisampled;
       if (!fits) continue;
-      known.lastPass = index;
       const uint32_t layer = below(known.layers - layers + 1);
       const Subresources range{.firstMip = mip, .mipCount = 1, .firstLayer = layer, .layerCount = layers};
       const bool written = isWritten(known, range);
-      LoadOp load = written && chance(50) ? LoadOp::load : chance(50) ? LoadOp::clear : LoadOp::dontCare;
-      any = true;
-      if (!known.depth) {
-        known.image = pass.color(known.image, {.load = load, .range = range});
-      } else if (written && chance(40)) {
-        depthTaken = true;
-        pass.depthReadOnly(known.image, range);
-        if (chance(50)) pass.sample(known.image, range);
-        continue;
-      } else {
-        depthTaken = true;
-        known.image = pass.depth(known.image, {.load = load, .range = range});
-      }
-      markWritten(known, range);
+      const LoadOp load = written && chance(50) ? LoadOp::load : chance(50) ? LoadOp::clear : LoadOp::dontCare;
+      const bool tested = known.depth && written && chance(40);
+      depthTaken = depthTaken || known.depth;
+      draw(pass, index, {.known = picked, .range = range, .tested = tested}, load);
+      if (tested && chance(50)) pass.sample(known.image, range);
+      if (multisampled && chance(80)) addResolve(pass, index, layers);
     }
-    if (!any) pass.renderArea({64, 64});
+    if (drawn_.empty()) pass.renderArea({64, 64});
+  }
+
+  /// Of the colour attachment just declared, if a target is found.
+  void addResolve(Pass& pass, uint32_t index, uint32_t layers) {
+    for (uint32_t i = 0; i < 4; ++i) {
+      const std::size_t picked = pick();
+      const Known& known = known_[picked];
+      const bool fits = known.isImage && !known.depth && !known.readOnly && !known.multisampled &&
+                        known.lastPass != index && layers <= known.layers;
+      if (!fits) continue;
+      const uint32_t layer = below(known.layers - layers + 1);
+      const Subresources range{.firstMip = 0, .mipCount = 1, .firstLayer = layer, .layerCount = layers};
+      return draw(pass, index, {.known = picked, .range = range, .resolved = true}, LoadOp::dontCare);
+    }
   }
 
   void useImage(Pass& pass, PassKind kind, Known& known) {
@@ -269,13 +335,11 @@ class Generator {
   }
 
   void exportSome() {
-    bool any = false;
     for (Known& known : known_) {
       bool written = false;
       for (bool part : known.written) written = written || part;
       const bool persistentToo = !known.created && !known.readOnly && chance(5);
-      if (!written || !(known.created ? chance(30) : persistentToo)) continue;
-      any = true;
+      if (!written || known.multisampled || !(known.created ? chance(30) : persistentToo)) continue;
       if (known.isImage) {
         AccessState after = kImageStates[below(5)];
         graph_.exportImage(known.image, after);
@@ -283,17 +347,18 @@ class Generator {
         graph_.exportBuffer(known.buffer, kBufferStates[below(4)]);
       }
     }
-    (void)any;
   }
 
   Graph& graph_;
   std::mt19937 random_;
+  bool resolves_;
   std::vector<Known> known_;
+  std::vector<Drawn> drawn_;  // Attachments of the pass before, when that was a raster pass.
   std::size_t start_ = 0;
 };
 
 }  // namespace
 
-void declareRandom(Graph& graph, uint32_t seed, uint32_t passes) {
-  Generator(graph, seed).run(passes);
+void declareRandom(Graph& graph, uint32_t seed, uint32_t passes, bool resolves) {
+  Generator(graph, seed, resolves).run(passes);
 }
