@@ -134,10 +134,12 @@ std::vector<Record> PlanReplay::inherited(uint32_t frame, uint32_t resource, con
 std::vector<Finding> PlanReplay::run() {
   std::vector<Finding> findings = overlaps_;
   remaining_ = inherited_ = nothingLeft();
+  faulty_.assign(replays_.size(), false);
   for (uint32_t frame = 0; frame < order_.frames(); ++frame) {
     for (uint32_t i : sequence_) {
       inherited_[frame][i] = inherited(frame, i, remaining_);
       replays_[i].run(frame, inherited_[frame][i], &findings);
+      faulty_[i] = faulty_[i] || replays_[i].failed();
       remaining_[frame][i] = replays_[i].remaining();
     }
   }

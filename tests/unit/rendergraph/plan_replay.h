@@ -19,6 +19,8 @@ class PlanReplay {
 
   /// Replays everything and keeps what is handed on.
   std::vector<Finding> run();
+  /// After run(): whether nothing is missing for one resource.
+  bool sound(uint32_t resource) const { return !faulty_[resource]; }
   /// After run(): whether nothing is missing for one resource with a change.
   bool holds(uint32_t resource, const Change& change);
   /// After run(): whether nothing is missing with other semaphore waits, of which those of `from` and later
@@ -44,6 +46,7 @@ class PlanReplay {
   std::vector<uint32_t> sequence_;                          // Resources, by first use.
   std::vector<std::vector<std::vector<Occupant>>> before_;  // By frame and resource: earlier owners of its memory.
   RecordTable inherited_, remaining_;
+  std::vector<bool> faulty_;  // By resource.
   std::vector<Finding> overlaps_;
 };
 
