@@ -50,7 +50,7 @@ class NominalDevice : public DeviceFacts {
 
 enum class Order : uint8_t {
   declared,     ///< As the passes were declared.
-  leastMemory,  ///< Greedy: the ready pass that keeps the fewest bytes alive.
+  leastMemory,  ///< Fewest bytes alive at once that are found, never more than declared; up to some milliseconds.
   mostOverlap,  ///< Dependent passes far apart, so that barriers wait for nothing.
   /// In as few groups without a barrier inside as fit in CompileOptions::memoryBudget. Memory changes hands between
   /// groups only; BarrierPlacement::fewestBatches then needs one batch a group. Up to some milliseconds.

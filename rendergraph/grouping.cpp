@@ -138,7 +138,7 @@ class GroupScheduler {
 
 // Passes that the search may schedule in all: some milliseconds, however large the graph is.
 constexpr std::size_t kSearchBudget = 100'000;
-constexpr std::size_t kMostAttempts = 1000;
+constexpr std::size_t kAttemptsPerPass = 10;  // Enough for small graphs.
 
 void improve(GroupScheduler& scheduler, std::span<const uint32_t> order, int64_t budget, Grouping& best) {
   const auto goal = [](const Grouping& grouping) {
@@ -155,7 +155,7 @@ void improve(GroupScheduler& scheduler, std::span<const uint32_t> order, int64_t
   Grouping current = scheduler.run(priorities, budget);
   keep(current);
   DeterministicRandom random;
-  const std::size_t attempts = std::min(kSearchBudget / order.size(), kMostAttempts) / 2;
+  const std::size_t attempts = std::min(kSearchBudget / order.size(), kAttemptsPerPass * order.size()) / 2;
   for (std::size_t attempt = 0; attempt < attempts; ++attempt) {
     if (best.excess == 0 && best.groups == longestChain) return;
     Priorities changed = priorities;

@@ -61,9 +61,9 @@ std::vector<uint32_t> levels(std::span<const uint32_t> order, std::span<const Ed
 }
 
 /// The ready pass after which the fewest bytes are alive, then the one that needs fewest meanwhile.
-class LeastMemory {
+class GreedyMemory {
  public:
-  LeastMemory(const MemoryUse& use, std::span<const uint8_t> alive, std::span<const Edge> edges)
+  GreedyMemory(const MemoryUse& use, std::span<const uint8_t> alive, std::span<const Edge> edges)
       : use_(use),
         waiting_(edges, static_cast<uint32_t>(alive.size())),
         bytes_(use, Direction::forward),
@@ -122,17 +122,33 @@ class LeastMemory {
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> ready_;
 };
 
-PassOrder fewestBatches(const MemoryUse& use, std::span<const Edge> edges, std::span<const uint32_t> declared,
-                        double memoryBudget) {
-  const auto budget = memoryBudget * static_cast<double>(peakBytes(use, declared));
+PassOrder inGroups(const MemoryUse& use, std::span<const Edge> edges, std::span<const uint32_t> declared,
+                   double budget) {
   constexpr double kMost = 1e18;  // More than any device has, and within int64_t.
   const std::vector<uint32_t> groupOf =
       groupPasses(use, edges, declared, static_cast<int64_t>(std::clamp(budget, 0.0, kMost)));
   PassOrder order{.passes = {declared.begin(), declared.end()}, .groups = {}};
   std::stable_sort(order.passes.begin(), order.passes.end(),
                    [&](uint32_t a, uint32_t b) { return groupOf[a] < groupOf[b]; });
+  order.groups.reserve(declared.size());
   for (uint32_t pass : order.passes) order.groups.push_back(groupOf[pass]);
   return order;
+}
+
+/// The best of three: greedy choices can lose against an order that a person chose well, and so can a search.
+std::vector<uint32_t> leastMemory(const MemoryUse& use, std::span<const uint8_t> alive, std::span<const Edge> edges,
+                                  std::vector<uint32_t> declared) {
+  std::vector<uint32_t> candidates[] = {std::move(declared), GreedyMemory(use, alive, edges).order(), {}};
+  candidates[2] = inGroups(use, edges, candidates[0], 0.0).passes;
+  std::vector<uint32_t>* best = &candidates[0];
+  int64_t bestPeak = peakBytes(use, *best);
+  for (std::vector<uint32_t>& candidate : std::span(candidates).subspan(1)) {
+    const int64_t peak = peakBytes(use, candidate);
+    if (peak >= bestPeak) continue;
+    best = &candidate;
+    bestPeak = peak;
+  }
+  return std::move(*best);
 }
 
 }  // namespace
@@ -146,19 +162,17 @@ PassOrder orderPasses(const Declaration& declaration, std::span<const uint8_t> a
   switch (options.order) {
     case Order::declared:
       break;
-    case Order::leastMemory: {
-      // Greedy choices can lose against an order that a person chose well.
-      const MemoryUse use(declaration, alive, bytes);
-      std::vector<uint32_t> greedy = LeastMemory(use, alive, edges).order();
-      if (peakBytes(use, greedy) < peakBytes(use, declared)) return {.passes = std::move(greedy), .groups = {}};
-      break;
-    }
+    case Order::leastMemory:
+      return {.passes = leastMemory(MemoryUse(declaration, alive, bytes), alive, edges, std::move(declared)),
+              .groups = {}};
     case Order::mostOverlap: {
       const std::vector<uint32_t> level = levels(declared, edges, static_cast<uint32_t>(alive.size()));
       return {.passes = byPriority(alive, edges, [&](uint32_t pass) { return level[pass]; }), .groups = {}};
     }
-    case Order::fewestBatches:
-      return fewestBatches(MemoryUse(declaration, alive, bytes), edges, declared, options.memoryBudget);
+    case Order::fewestBatches: {
+      const MemoryUse use(declaration, alive, bytes);
+      return inGroups(use, edges, declared, options.memoryBudget * static_cast<double>(peakBytes(use, declared)));
+    }
   }
   return {.passes = std::move(declared), .groups = {}};
 }

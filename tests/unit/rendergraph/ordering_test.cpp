@@ -92,17 +92,20 @@ TEST(Ordering, EveryPolicyRespectsEveryEdgeAndRunsEveryPassOnce) {
   }
 }
 
-TEST(Ordering, LeastMemoryIsTheGreedyOrderOrTheDeclaredOneIfThatNeedsLess) {
-  uint32_t greedyWon = 0;
+TEST(Ordering, LeastMemoryIsNeverWorseThanTheGreedyRuleOrTheDeclaredOrder) {
+  uint32_t savedBytes = 0, beatGreedy = 0;
   for (uint32_t seed = 0; seed < 300; ++seed) {
     const Case c(seed);
     const MemoryUse use(c.graph.declaration(), c.alive, c.bytes);
-    const std::vector<uint32_t> greedy = greedyByLooking(c, use), declared = c.order(Order::declared).passes;
-    const bool better = peakBytes(use, greedy) < peakBytes(use, declared);
-    greedyWon += better;
-    ASSERT_EQ(c.order(Order::leastMemory).passes, better ? greedy : declared) << "seed " << seed;
+    const int64_t greedy = peakBytes(use, greedyByLooking(c, use));
+    const int64_t declared = peakBytes(use, c.order(Order::declared).passes);
+    const int64_t found = peakBytes(use, c.order(Order::leastMemory).passes);
+    ASSERT_LE(found, std::min(greedy, declared)) << "seed " << seed;
+    savedBytes += found < declared;
+    beatGreedy += found < greedy;
   }
-  EXPECT_GT(greedyWon, 50u);
+  EXPECT_GT(savedBytes, 100u);
+  EXPECT_GT(beatGreedy, 100u);
 }
 
 TEST(Ordering, BytesAliveAreThoseOfALookAtEveryStep) {
