@@ -54,51 +54,58 @@ std::vector<VkBufferImageCopy> mipRegions(const rendergraph::ImageDesc& desc) {
 
 }  // namespace
 
-CommandLoop::CommandLoop(const Device& device) : device_(device) {
-  const auto& vk = device.vk();
-  VkCommandPoolCreateInfo poolInfo{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
-  poolInfo.queueFamilyIndex = device.queueFamily();
+CommandPool::CommandPool(const Device& device, uint32_t queue, std::string_view name) : device_(device), name_(name) {
+  VkCommandPoolCreateInfo info{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
+  info.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
+  info.queueFamilyIndex = device.queues()[queue].family;
   VkCommandPool pool = VK_NULL_HANDLE;
-  check(vk.vkCreateCommandPool(device.handle(), &poolInfo, nullptr, &pool), "vkCreateCommandPool");
-  pool_ = {device.handle(), pool, vk.vkDestroyCommandPool};
-  VkCommandBufferAllocateInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
-  info.commandPool = pool;
-  info.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
-  info.commandBufferCount = 1;
-  check(vk.vkAllocateCommandBuffers(device.handle(), &info, &commands_), "vkAllocateCommandBuffers");
-  const VkFenceCreateInfo fenceInfo{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO, nullptr, 0};
-  VkFence fence = VK_NULL_HANDLE;
-  check(vk.vkCreateFence(device.handle(), &fenceInfo, nullptr, &fence), "vkCreateFence");
-  fence_ = {device.handle(), fence, vk.vkDestroyFence};
+  check(device.vk().vkCreateCommandPool(device.handle(), &info, nullptr, &pool), "vkCreateCommandPool");
+  pool_ = {device.handle(), pool, device.vk().vkDestroyCommandPool};
+  device.setName(VK_OBJECT_TYPE_COMMAND_POOL, reinterpret_cast<uint64_t>(pool), name);
 }
 
-VkCommandBuffer CommandLoop::begin() {
+VkCommandBuffer CommandPool::begin() {
   const auto& vk = device_.vk();
-  check(vk.vkResetCommandPool(device_.handle(), pool_.get(), 0), "vkResetCommandPool");
+  if (used_ == buffers_.size()) {
+    VkCommandBufferAllocateInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+    info.commandPool = pool_.get();
+    info.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+    info.commandBufferCount = 1;
+    buffers_.reserve(used_ + 1);
+    VkCommandBuffer made = VK_NULL_HANDLE;
+    check(vk.vkAllocateCommandBuffers(device_.handle(), &info, &made), "vkAllocateCommandBuffers");
+    device_.setName(VK_OBJECT_TYPE_COMMAND_BUFFER, reinterpret_cast<uint64_t>(made),
+                    name_ + " #" + std::to_string(used_));
+    buffers_.push_back(made);
+  }
   VkCommandBufferBeginInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
   info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-  check(vk.vkBeginCommandBuffer(commands_, &info), "vkBeginCommandBuffer");
-  return commands_;
+  const VkCommandBuffer commands = buffers_[used_++];
+  check(vk.vkBeginCommandBuffer(commands, &info), "vkBeginCommandBuffer");
+  return commands;
 }
 
-void CommandLoop::submitAndWait() {
-  const auto& vk = device_.vk();
-  check(vk.vkEndCommandBuffer(commands_), "vkEndCommandBuffer");
-  VkCommandBufferSubmitInfo commandInfo{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
-  commandInfo.commandBuffer = commands_;
-  VkSubmitInfo2 submit{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
-  submit.commandBufferInfoCount = 1;
-  submit.pCommandBufferInfos = &commandInfo;
-  check(vk.vkQueueSubmit2(device_.queue(), 1, &submit, fence_.get()), "vkQueueSubmit2");
-  const VkFence fence = fence_.get();
-  check(vk.vkWaitForFences(device_.handle(), 1, &fence, VK_TRUE, UINT64_MAX), "vkWaitForFences");
-  check(vk.vkResetFences(device_.handle(), 1, &fence), "vkResetFences");
+void CommandPool::reset() {
+  check(device_.vk().vkResetCommandPool(device_.handle(), pool_.get(), 0), "vkResetCommandPool");
+  used_ = 0;
 }
 
 void runOnce(const Device& device, const std::function<void(VkCommandBuffer)>& record) {
-  CommandLoop loop(device);
-  record(loop.begin());
-  loop.submitAndWait();
+  const auto& vk = device.vk();
+  CommandPool pool(device, 0, "one-off");
+  const VkFenceCreateInfo fenceInfo{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO, nullptr, 0};
+  VkFence fence = VK_NULL_HANDLE;
+  check(vk.vkCreateFence(device.handle(), &fenceInfo, nullptr, &fence), "vkCreateFence");
+  const Unique<VkFence> owned(device.handle(), fence, vk.vkDestroyFence);
+  VkCommandBufferSubmitInfo commandInfo{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
+  commandInfo.commandBuffer = pool.begin();
+  record(commandInfo.commandBuffer);
+  check(vk.vkEndCommandBuffer(commandInfo.commandBuffer), "vkEndCommandBuffer");
+  VkSubmitInfo2 submit{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
+  submit.commandBufferInfoCount = 1;
+  submit.pCommandBufferInfos = &commandInfo;
+  check(device.submit(0, submit, fence), "vkQueueSubmit2");
+  check(vk.vkWaitForFences(device.handle(), 1, &fence, VK_TRUE, UINT64_MAX), "vkWaitForFences");
 }
 
 void upload(const Device& device, const GpuBuffer& target, std::span<const std::byte> bytes) {

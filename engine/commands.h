@@ -1,32 +1,34 @@
-// Command buffers: one pool, one-off submissions that are waited for, and uploads through staging memory.
+// Command buffers: pools of them, one-off submissions that are waited for, and uploads through staging memory.
 #pragma once
 
 #include <cstddef>
 #include <functional>
 #include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "engine/device.h"
 #include "engine/memory.h"
 
 namespace engine {
 
-/// A command buffer that is recorded, submitted and waited for, again and again. Not thread-safe.
-class CommandLoop {
+/// Command buffers for one queue (index in Device::queues()), used by one thread at a time and taken back together.
+class CommandPool {
  public:
-  explicit CommandLoop(const Device& device);
-  CommandLoop(const CommandLoop&) = delete;
-  CommandLoop& operator=(const CommandLoop&) = delete;
+  CommandPool(const Device& device, uint32_t queue, std::string_view name);
 
-  /// Begins recording. Precondition: the submission before has been waited for (submitAndWait does).
+  /// Begins a command buffer that is submitted once. Throws engine::Error when the device is out of memory.
   VkCommandBuffer begin();
-  /// Ends, submits and waits. Throws engine::Error when the device is lost.
-  void submitAndWait();
+  /// Takes all back, whether ended or not. Precondition: the device has finished with them.
+  void reset();
 
  private:
   const Device& device_;
+  std::string name_;
   Unique<VkCommandPool> pool_;
-  VkCommandBuffer commands_ = VK_NULL_HANDLE;
-  Unique<VkFence> fence_;
+  std::vector<VkCommandBuffer> buffers_;
+  std::size_t used_ = 0;
 };
 
 /// Records with `record`, submits and waits.

@@ -1,4 +1,4 @@
-// Pools of descriptor sets.
+// Pools of descriptor sets, and their content.
 #include "engine/descriptors.h"
 
 namespace engine {
@@ -40,6 +40,32 @@ VkDescriptorSet DescriptorRing::allocate(VkDescriptorSetLayout layout) {
     if (fresh) check(result, "vkAllocateDescriptorSets");
     ++current_;
   }
+}
+
+void SetWriter::write(const Device& device, PipelineStore& pipelines, VkDescriptorSet set,
+                      std::span<const rendergraph::ResolvedBinding> bindings) {
+  images_.resize(bindings.size());
+  buffers_.resize(bindings.size());
+  writes_.resize(bindings.size());
+  for (uint32_t i = 0; i < bindings.size(); ++i) {
+    const auto& binding = bindings[i];
+    const bool isImage = binding.kind == BindingKind::sampledImage || binding.kind == BindingKind::storageImage;
+    if (isImage) {
+      const bool sampled = binding.kind == BindingKind::sampledImage;
+      images_[i] = {sampled ? pipelines.sampler(binding.sampler) : VK_NULL_HANDLE, binding.view, binding.layout};
+    } else {
+      buffers_[i] = {binding.buffer, 0, VK_WHOLE_SIZE};
+    }
+    writes_[i] = {VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
+    writes_[i].dstSet = set;
+    writes_[i].dstBinding = i;
+    writes_[i].descriptorCount = 1;
+    writes_[i].descriptorType = descriptorTypeOf(binding.kind);
+    writes_[i].pImageInfo = isImage ? &images_[i] : nullptr;
+    writes_[i].pBufferInfo = isImage ? nullptr : &buffers_[i];
+  }
+  device.vk().vkUpdateDescriptorSets(device.handle(), static_cast<uint32_t>(writes_.size()), writes_.data(), 0,
+                                     nullptr);
 }
 
 }  // namespace engine

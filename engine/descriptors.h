@@ -1,14 +1,18 @@
-// Descriptor sets that live for one submission, from pools that grow to the frame's need and are then reused.
+// Descriptor sets that live for one frame, from pools that grow to the frame's need and are then reused.
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "engine/device.h"
+#include "engine/pipelines.h"
 #include "engine/vulkan_api.h"
+#include "rendergraph/backend.h"
 
 namespace engine {
 
+/// Used by one thread at a time.
 class DescriptorRing {
  public:
   explicit DescriptorRing(const Device& device) : device_(device) {}
@@ -23,6 +27,19 @@ class DescriptorRing {
   const Device& device_;
   std::vector<Unique<VkDescriptorPool>> pools_;
   std::size_t current_ = 0;
+};
+
+/// Writes sets; keeps its memory from call to call.
+class SetWriter {
+ public:
+  /// `bindings` become bindings 0, 1, … of the set.
+  void write(const Device& device, PipelineStore& pipelines, VkDescriptorSet set,
+             std::span<const rendergraph::ResolvedBinding> bindings);
+
+ private:
+  std::vector<VkDescriptorImageInfo> images_;
+  std::vector<VkDescriptorBufferInfo> buffers_;
+  std::vector<VkWriteDescriptorSet> writes_;
 };
 
 }  // namespace engine

@@ -2,6 +2,7 @@
 #include "engine/device.h"
 
 #include <algorithm>
+#include <bit>
 #include <cctype>
 #include <charconv>
 #include <cstring>
@@ -61,17 +62,41 @@ int capability(const std::string& type) {
   return static_cast<int>(std::find(std::begin(order), std::end(order), type) - std::begin(order));
 }
 
-/// Index of a queue family for graphics, compute and timestamps; -1 when there is none.
-int findQueueFamily(VkPhysicalDevice physical) {
+std::vector<VkQueueFamilyProperties> queueFamilies(VkPhysicalDevice physical) {
   uint32_t count = 0;
   vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
   std::vector<VkQueueFamilyProperties> families(count);
   vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, families.data());
-  constexpr VkQueueFlags kWanted = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
-  for (uint32_t i = 0; i < count; ++i) {
-    if ((families[i].queueFlags & kWanted) == kWanted && families[i].timestampValidBits > 0) return static_cast<int>(i);
+  return families;
+}
+
+/// Index of the queue family with all of `wanted`, none of `unwanted`, and the fewest other abilities (decoding video,
+/// say), since a family made for one thing does it beside the others; -1 when there is none.
+int findQueueFamily(const std::vector<VkQueueFamilyProperties>& families, VkQueueFlags wanted, VkQueueFlags unwanted) {
+  int best = -1;
+  for (std::size_t i = 0; i < families.size(); ++i) {
+    const VkQueueFlags flags = families[i].queueFlags;
+    if ((flags & wanted) != wanted || (flags & unwanted) != 0 || families[i].queueCount == 0) continue;
+    if (best < 0 || std::popcount(flags) < std::popcount(families[best].queueFlags)) best = static_cast<int>(i);
   }
-  return -1;
+  return best;
+}
+
+/// Graphics, compute and timestamps; -1 when there is none.
+int findMainFamily(std::vector<VkQueueFamilyProperties> families) {
+  for (auto& family : families) {
+    if (family.timestampValidBits == 0) family.queueFlags = 0;
+  }
+  return findQueueFamily(families, VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT, 0);
+}
+
+/// Copies and nothing else, of any part of an image.
+int findTransferFamily(std::vector<VkQueueFamilyProperties> families) {
+  for (auto& family : families) {
+    const VkExtent3D& grain = family.minImageTransferGranularity;
+    if (grain.width != 1 || grain.height != 1 || grain.depth != 1) family.queueFlags = 0;
+  }
+  return findQueueFamily(families, VK_QUEUE_TRANSFER_BIT, VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT);
 }
 
 DeviceDescription describe(VkPhysicalDevice physical) {
@@ -92,7 +117,7 @@ DeviceDescription describe(VkPhysicalDevice physical) {
   for (const auto& needed : kNeeded) {
     if (needed.in(features) == VK_FALSE) description.missing.emplace_back(needed.name);
   }
-  if (findQueueFamily(physical) < 0)
+  if (findMainFamily(queueFamilies(physical)) < 0)
     description.missing.emplace_back("a queue for graphics and compute with timestamps");
   return description;
 }
@@ -172,13 +197,34 @@ void Device::choose(const std::string& select) {
                .remedy = "choose by index or by part of the name: " + names});
 }
 
+void Device::chooseQueues() {
+  const auto families = queueFamilies(physical_);
+  const auto add = [&](const char* name, int family) {
+    if (family < 0) return;
+    const auto& properties = families[static_cast<std::size_t>(family)];
+    queues_.push_back({.name = name,
+                       .handle = VK_NULL_HANDLE,
+                       .family = static_cast<uint32_t>(family),
+                       .graphics = (properties.queueFlags & VK_QUEUE_GRAPHICS_BIT) != 0,
+                       .compute = (properties.queueFlags & VK_QUEUE_COMPUTE_BIT) != 0,
+                       .timestampBits = properties.timestampValidBits});
+  };
+  add("graphics", findMainFamily(families));
+  add("compute", findQueueFamily(families, VK_QUEUE_COMPUTE_BIT, VK_QUEUE_GRAPHICS_BIT));
+  add("transfer", findTransferFamily(families));
+}
+
 void Device::createDevice() {
-  queueFamily_ = static_cast<uint32_t>(findQueueFamily(physical_));
+  chooseQueues();
   const float priority = 1.0f;
-  VkDeviceQueueCreateInfo queueInfo{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
-  queueInfo.queueFamilyIndex = queueFamily_;
-  queueInfo.queueCount = 1;
-  queueInfo.pQueuePriorities = &priority;
+  std::vector<VkDeviceQueueCreateInfo> queueInfos;
+  for (const DeviceQueue& queue : queues_) {
+    VkDeviceQueueCreateInfo& info = queueInfos.emplace_back();
+    info = {VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
+    info.queueFamilyIndex = queue.family;  // Each family occurs once: what they can do differs.
+    info.queueCount = 1;
+    info.pQueuePriorities = &priority;
+  }
 
   Features available;
   vkGetPhysicalDeviceFeatures2(physical_, &available.core);
@@ -189,11 +235,14 @@ void Device::createDevice() {
 
   VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
   info.pNext = &wanted.core;
-  info.queueCreateInfoCount = 1;
-  info.pQueueCreateInfos = &queueInfo;
+  info.queueCreateInfoCount = static_cast<uint32_t>(queueInfos.size());
+  info.pQueueCreateInfos = queueInfos.data();
   check(vkCreateDevice(physical_, &info, nullptr, &device_), "vkCreateDevice");
   volkLoadDeviceTable(&table_, device_);
-  table_.vkGetDeviceQueue(device_, queueFamily_, 0, &queue_);
+  for (DeviceQueue& queue : queues_) {
+    table_.vkGetDeviceQueue(device_, queue.family, 0, &queue.handle);
+    setName(VK_OBJECT_TYPE_QUEUE, reinterpret_cast<uint64_t>(queue.handle), queue.name);
+  }
 
   VkPhysicalDeviceProperties properties;
   vkGetPhysicalDeviceProperties(physical_, &properties);
@@ -201,13 +250,19 @@ void Device::createDevice() {
   vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
 }
 
-void Device::setName(VkObjectType type, uint64_t object, const std::string& name) const {
+VkResult Device::submit(uint32_t queue, const VkSubmitInfo2& submission, VkFence fence) const {
+  const std::scoped_lock lock(submission_);
+  return table_.vkQueueSubmit2(queues_[queue].handle, 1, &submission, fence);
+}
+
+void Device::setName(VkObjectType type, uint64_t object, std::string_view name) const {
   // Names cost the driver memory and are read only under validation and debuggers, which load the same extension.
   if (vkSetDebugUtilsObjectNameEXT == nullptr || object == 0) return;
+  const std::string terminated(name);
   VkDebugUtilsObjectNameInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT};
   info.objectType = type;
   info.objectHandle = object;
-  info.pObjectName = name.c_str();
+  info.pObjectName = terminated.c_str();
   vkSetDebugUtilsObjectNameEXT(device_, &info);
 }
 

@@ -1,8 +1,10 @@
-// One Vulkan device with one queue for graphics, compute and transfer.
+// One Vulkan device: a queue for graphics, compute and transfer, and those that work beside it where there are any.
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/vulkan_api.h"
@@ -27,6 +29,15 @@ struct DeviceDescription {
 /// All Vulkan devices of this machine, usable or not, in the loader's order. Throws engine::Error without a loader.
 std::vector<DeviceDescription> listDevices();
 
+struct DeviceQueue {
+  std::string name;  ///< "graphics", "compute", "transfer".
+  VkQueue handle = VK_NULL_HANDLE;
+  uint32_t family = 0;
+  bool graphics = false;
+  bool compute = false;
+  uint32_t timestampBits = 0;  ///< Valid bits of its timestamps; 0: it writes none.
+};
+
 class Device {
  public:
   /// Throws engine::Error when no device fits, naming what the best candidate lacks.
@@ -39,8 +50,12 @@ class Device {
   VkInstance instance() const { return instance_.handle(); }
   VkPhysicalDevice physical() const { return physical_; }
   VkDevice handle() const { return device_; }
-  VkQueue queue() const { return queue_; }
-  uint32_t queueFamily() const { return queueFamily_; }
+  /// The first does everything; then, from families without graphics, one for compute and one that only copies, where
+  /// the device has such families.
+  const std::vector<DeviceQueue>& queues() const { return queues_; }
+  uint32_t queueFamily() const { return queues_.front().family; }
+  /// vkQueueSubmit2 of one batch, by index in queues(). From any thread: Vulkan wants one at a time.
+  VkResult submit(uint32_t queue, const VkSubmitInfo2& submission, VkFence fence = VK_NULL_HANDLE) const;
   const VolkDeviceTable& vk() const { return table_; }
   const VkPhysicalDeviceLimits& limits() const { return limits_; }
   const VkPhysicalDeviceMemoryProperties& memory() const { return memory_; }
@@ -49,18 +64,19 @@ class Device {
   const std::shared_ptr<ValidationLog>& validationLog() const { return instance_.log(); }
 
   /// A name for debuggers and validation messages; does nothing without debug utils.
-  void setName(VkObjectType type, uint64_t object, const std::string& name) const;
+  void setName(VkObjectType type, uint64_t object, std::string_view name) const;
 
  private:
   void choose(const std::string& select);
   void createDevice();
+  void chooseQueues();
 
   VulkanInstance instance_;
   DeviceDescription description_;
   VkPhysicalDevice physical_ = VK_NULL_HANDLE;
   VkDevice device_ = VK_NULL_HANDLE;
-  VkQueue queue_ = VK_NULL_HANDLE;
-  uint32_t queueFamily_ = 0;
+  std::vector<DeviceQueue> queues_;
+  mutable std::mutex submission_;
   VolkDeviceTable table_{};
   VkPhysicalDeviceLimits limits_{};
   VkPhysicalDeviceMemoryProperties memory_{};

@@ -1,6 +1,7 @@
 // rendergraph::Backend on a Vulkan device: makes the graph's memory and objects, records and submits its commands.
 #pragma once
 
+#include <memory>
 #include <unordered_map>
 #include <vector>
 
@@ -13,24 +14,40 @@
 
 namespace engine {
 
-/// Not thread-safe. The device outlives it. Vulkan failures become GraphErrors (Misuse::device).
+struct GraphBackendOptions {
+  /// Memory of their own also for resources for which the driver merely prefers it. Off: where it demands it only. The
+  /// driver's wish is for large attachments as a rule, those that the graph's aliasing saves most with, and what it
+  /// gives for it (compression metadata, clears) is not in its answer; measure on the device in question.
+  bool dedicatedWherePreferred = false;
+};
+
+/// Recording is thread-safe as rendergraph::Backend asks; everything else is for one thread at a time. Several backends
+/// may serve one device, on several threads. The device outlives it. Vulkan failures become GraphErrors.
 class GraphBackend final : public rendergraph::Backend {
  public:
+  using CommandStream = rendergraph::CommandStream;
+  using RecorderId = rendergraph::RecorderId;
+
   /// Pipelines are cached on disk in defaultPipelineCacheFile().
-  explicit GraphBackend(const Device& device);
+  explicit GraphBackend(const Device& device, const GraphBackendOptions& options = {});
   ~GraphBackend() override;
 
   const Device& device() const { return device_; }
   PipelineStore& pipelines() { return pipelines_; }
-  /// A set that lives until the submission being recorded has finished.
-  VkDescriptorSet transientSet(VkDescriptorSetLayout layout) { return descriptors_.allocate(layout); }
-  /// Writes `bindings` to bindings 0, 1, … of the set.
+  /// A set with `bindings` as bindings 0, 1, …, which lives until the frame that the stream belongs to has finished.
+  VkDescriptorSet transientSet(const CommandStream& commands, VkDescriptorSetLayout layout,
+                               std::span<const rendergraph::ResolvedBinding> bindings);
+  /// Writes `bindings` to bindings 0, 1, … of a set of the caller.
   void writeSet(VkDescriptorSet set, std::span<const rendergraph::ResolvedBinding> bindings);
+  /// Bytes of memory in use and the number of blocks.
+  VkDeviceSize allocatedBytes() const { return allocatedBytes_; }
+  std::size_t heapCount() const { return heaps_.size(); }
 
   // DeviceFacts
   uint32_t maxImageSize() const override;
   uint32_t maxImageLayers() const override;
   VkDeviceSize maxBufferSize() const override;
+  std::span<const rendergraph::QueueFacts> queues() const override { return queues_; }
   rendergraph::MemoryRequirements requirements(const rendergraph::ImageDesc& desc,
                                                VkImageUsageFlags usage) const override;
   rendergraph::MemoryRequirements requirements(const rendergraph::BufferDesc& desc,
@@ -41,57 +58,102 @@ class GraphBackend final : public rendergraph::Backend {
                                  std::string_view name) override;
   void destroyHeap(rendergraph::HeapId heap) override;
   void* hostAddress(rendergraph::HeapId heap) override;
-  VkImage createImage(const rendergraph::ImageDesc& desc, VkImageUsageFlags usage, rendergraph::HeapId heap,
-                      VkDeviceSize offset, std::string_view name) override;
+  VkImage createImage(const rendergraph::ImageRequest& request, rendergraph::HeapId heap, VkDeviceSize offset) override;
+  rendergraph::DedicatedImage createDedicatedImage(const rendergraph::ImageRequest& request) override;
   void destroyImage(VkImage image) override;
-  VkBuffer createBuffer(const rendergraph::BufferDesc& desc, VkBufferUsageFlags usage, rendergraph::HeapId heap,
-                        VkDeviceSize offset, std::string_view name) override;
+  VkBuffer createBuffer(const rendergraph::BufferRequest& request, rendergraph::HeapId heap,
+                        VkDeviceSize offset) override;
+  rendergraph::DedicatedBuffer createDedicatedBuffer(const rendergraph::BufferRequest& request) override;
   void destroyBuffer(VkBuffer buffer) override;
   VkImageView createView(const rendergraph::ViewDesc& desc, std::string_view name) override;
   void destroyView(VkImageView view) override;
+  VkEvent createEvent(std::string_view name) override;
+  void destroyEvent(VkEvent event) override;
+  void resetEvent(VkEvent event) override;
 
-  // Commands
-  VkCommandBuffer beginCommands() override;
-  void submitAndWait(VkCommandBuffer commands) override;
-  void barrier(VkCommandBuffer commands, const VkDependencyInfo& dependency) override;
-  void beginRendering(VkCommandBuffer commands, const VkRenderingInfo& rendering) override;
-  void endRendering(VkCommandBuffer commands) override;
-  void beginLabel(VkCommandBuffer commands, std::string_view name) override;
-  void endLabel(VkCommandBuffer commands) override;
-  void dispatch(VkCommandBuffer commands, const rendergraph::ResolvedDispatch& dispatch) override;
-  void draw(VkCommandBuffer commands, const rendergraph::ResolvedDraw& draw) override;
-  void copyImage(VkCommandBuffer commands, VkImage from, VkImage to, const VkImageCopy& region) override;
-  void copyImageToBuffer(VkCommandBuffer commands, VkImage from, VkBuffer to, const VkBufferImageCopy& region) override;
-  void copyBuffer(VkCommandBuffer commands, VkBuffer from, VkBuffer to, VkDeviceSize bytes) override;
-  void fillBuffer(VkCommandBuffer commands, VkBuffer to, uint32_t word) override;
-  void clearImage(VkCommandBuffer commands, VkImage image, const VkClearColorValue& value,
+  // Recorders and submission
+  RecorderId createRecorder(uint32_t queue, std::string_view name) override;
+  void destroyRecorder(RecorderId recorder) override;
+  void resetRecorder(RecorderId recorder) override;
+  VkSemaphore createTimeline(std::string_view name) override;
+  void destroyTimeline(VkSemaphore timeline) override;
+  uint64_t timelineValue(VkSemaphore timeline) override;
+  void waitTimelines(const VkSemaphoreWaitInfo& wait) override;
+  void submit(uint32_t queue, const VkSubmitInfo2& submission) override;
+
+  // Recording
+  CommandStream beginCommands(RecorderId recorder) override;
+  void endCommands(const CommandStream& commands) override;
+  void barrier(const CommandStream& commands, const VkDependencyInfo& dependency) override;
+  void setEvent(const CommandStream& commands, VkEvent event, const VkDependencyInfo& dependency) override;
+  void waitEvent(const CommandStream& commands, VkEvent event, const VkDependencyInfo& dependency) override;
+  void beginRendering(const CommandStream& commands, const VkRenderingInfo& rendering) override;
+  void endRendering(const CommandStream& commands) override;
+  void beginLabel(const CommandStream& commands, std::string_view name) override;
+  void endLabel(const CommandStream& commands) override;
+  void dispatch(const CommandStream& commands, const rendergraph::ResolvedDispatch& dispatch) override;
+  void draw(const CommandStream& commands, const rendergraph::ResolvedDraw& draw) override;
+  void copyImage(const CommandStream& commands, VkImage from, VkImage to, const VkImageCopy& region) override;
+  void copyImageToBuffer(const CommandStream& commands, VkImage from, VkBuffer to,
+                         const VkBufferImageCopy& region) override;
+  void copyBuffer(const CommandStream& commands, VkBuffer from, VkBuffer to, VkDeviceSize bytes) override;
+  void fillBuffer(const CommandStream& commands, VkBuffer to, uint32_t word) override;
+  void clearImage(const CommandStream& commands, VkImage image, const VkClearColorValue& value,
                   const VkImageSubresourceRange& range) override;
-  void clearDepthImage(VkCommandBuffer commands, VkImage image, float depth,
+  void clearDepthImage(const CommandStream& commands, VkImage image, float depth,
                        const VkImageSubresourceRange& range) override;
+  void writeTimestamp(const CommandStream& commands, VkPipelineStageFlags2 stage, VkQueryPool pool,
+                      uint32_t slot) override;
 
   // Time
-  uint32_t maxTimestamps() const override;
-  void writeTimestamp(VkCommandBuffer commands, VkPipelineStageFlags2 stage, uint32_t slot) override;
-  void readTimestamps(std::span<double> nanoseconds) override;
+  bool hasTimestamps(uint32_t queue) const override;
+  double nanosecondsPerTick() const override;
+  VkQueryPool createTimestamps(uint32_t count, std::string_view name) override;
+  void destroyTimestamps(VkQueryPool pool) override;
+  void resetTimestamps(VkQueryPool pool, uint32_t count) override;
+  void readTimestamps(VkQueryPool pool, uint32_t first, std::span<uint64_t> ticks) override;
 
  private:
-  void bind(VkCommandBuffer commands, VkPipelineBindPoint point, const BoundPipeline& pipeline,
+  /// One recorder: used by one thread at a time.
+  struct Recorder {
+    CommandPool pool;
+    DescriptorRing descriptors;
+    SetWriter writer;
+    std::vector<BindingKind> kinds;
+  };
+  /// Signalled with a timeline's value.
+  struct SentFence {
+    VkSemaphore timeline;
+    uint64_t value;
+    Unique<VkFence> fence;
+  };
+  struct Heap {
+    MemoryBlock block;
+    VkDeviceSize size = 0;
+  };
+  static Recorder& recorderOf(const CommandStream& commands) { return *reinterpret_cast<Recorder*>(commands.recorder); }
+
+  void bind(const CommandStream& commands, VkPipelineBindPoint point, const BoundPipeline& pipeline,
             std::span<const rendergraph::ResolvedBinding> bindings, std::span<const std::byte> pushConstants);
-  std::span<const BindingKind> kindsOf(std::span<const rendergraph::ResolvedBinding> bindings);
+  Unique<VkFence> takeFence();
+  template <class CreateInfo>
+  void share(CreateInfo& info, bool concurrent) const;
+  rendergraph::MemoryRequirements folded(const VkMemoryRequirements2& found) const;
+  rendergraph::HeapId keep(MemoryBlock block, VkDeviceSize size, std::string_view name);
+  rendergraph::HeapId createDedicated(const VkMemoryRequirements& needs, rendergraph::MemoryKind memory,
+                                      const VkMemoryDedicatedAllocateInfo& owner, std::string_view name);
 
   const Device& device_;
+  GraphBackendOptions options_;
+  std::vector<rendergraph::QueueFacts> queues_;
+  std::vector<uint32_t> families_;  ///< Of queues_, each once.
   PipelineStore pipelines_;
-  DescriptorRing descriptors_;
-  CommandLoop commands_;
-  Unique<VkQueryPool> queries_;
-  std::unordered_map<rendergraph::HeapId, MemoryBlock> heaps_;
+  std::unordered_map<rendergraph::HeapId, Heap> heaps_;
   rendergraph::HeapId nextHeap_ = 1;
-  // Reused between calls, so that recording allocates nothing.
-  std::vector<BindingKind> kinds_;
-  std::vector<VkDescriptorImageInfo> imageInfos_;
-  std::vector<VkDescriptorBufferInfo> bufferInfos_;
-  std::vector<VkWriteDescriptorSet> writes_;
-  std::vector<uint64_t> ticks_;
+  VkDeviceSize allocatedBytes_ = 0;
+  std::vector<std::unique_ptr<Recorder>> recorders_;
+  std::vector<SentFence> sent_;
+  std::vector<Unique<VkFence>> fences_;  ///< Unsignalled, to be used again.
 };
 
 }  // namespace engine

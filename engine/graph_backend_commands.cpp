@@ -3,149 +3,151 @@
 #include <string>
 
 #include "engine/graph_backend.h"
-#include "rendergraph/error.h"
+#include "engine/graph_error.h"
 
 namespace engine {
 
-VkCommandBuffer GraphBackend::beginCommands() {
-  descriptors_.reset();
-  device_.vk().vkResetQueryPool(device_.handle(), queries_.get(), 0, maxTimestamps());
-  return commands_.begin();
+GraphBackend::CommandStream GraphBackend::beginCommands(RecorderId recorder) {
+  return withGraphErrors({}, [&] {
+    return CommandStream{recorderOf({VK_NULL_HANDLE, recorder}).pool.begin(), recorder};
+  });
 }
 
-void GraphBackend::submitAndWait(VkCommandBuffer) {
-  try {
-    commands_.submitAndWait();
-  } catch (const std::exception& error) {
-    throw rendergraph::GraphError({{.misuse = rendergraph::Misuse::device,
-                                    .pass = {},
-                                    .resource = {},
-                                    .reason = error.what(),
-                                    .remedy = "the device or its driver gave up; try a smaller picture",
-                                    .where = std::source_location::current()}});
-  }
+void GraphBackend::endCommands(const CommandStream& commands) {
+  require(device_.vk().vkEndCommandBuffer(commands.buffer), "vkEndCommandBuffer");
 }
 
-void GraphBackend::barrier(VkCommandBuffer commands, const VkDependencyInfo& dependency) {
-  device_.vk().vkCmdPipelineBarrier2(commands, &dependency);
+void GraphBackend::barrier(const CommandStream& commands, const VkDependencyInfo& dependency) {
+  device_.vk().vkCmdPipelineBarrier2(commands.buffer, &dependency);
+}
+void GraphBackend::setEvent(const CommandStream& commands, VkEvent event, const VkDependencyInfo& dependency) {
+  device_.vk().vkCmdSetEvent2(commands.buffer, event, &dependency);
+}
+void GraphBackend::waitEvent(const CommandStream& commands, VkEvent event, const VkDependencyInfo& dependency) {
+  device_.vk().vkCmdWaitEvents2(commands.buffer, 1, &event, &dependency);
 }
 
-void GraphBackend::beginRendering(VkCommandBuffer commands, const VkRenderingInfo& rendering) {
-  device_.vk().vkCmdBeginRendering(commands, &rendering);
+void GraphBackend::beginRendering(const CommandStream& commands, const VkRenderingInfo& rendering) {
+  device_.vk().vkCmdBeginRendering(commands.buffer, &rendering);
 }
-void GraphBackend::endRendering(VkCommandBuffer commands) {
-  device_.vk().vkCmdEndRendering(commands);
+void GraphBackend::endRendering(const CommandStream& commands) {
+  device_.vk().vkCmdEndRendering(commands.buffer);
 }
 
-void GraphBackend::beginLabel(VkCommandBuffer commands, std::string_view name) {
+void GraphBackend::beginLabel(const CommandStream& commands, std::string_view name) {
   if (vkCmdBeginDebugUtilsLabelEXT == nullptr) return;
   std::array<char, 128> text{};
   name.copy(text.data(), text.size() - 1);
   VkDebugUtilsLabelEXT label{VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT};
   label.pLabelName = text.data();
-  vkCmdBeginDebugUtilsLabelEXT(commands, &label);
+  vkCmdBeginDebugUtilsLabelEXT(commands.buffer, &label);
 }
-void GraphBackend::endLabel(VkCommandBuffer commands) {
-  if (vkCmdEndDebugUtilsLabelEXT != nullptr) vkCmdEndDebugUtilsLabelEXT(commands);
+void GraphBackend::endLabel(const CommandStream& commands) {
+  if (vkCmdEndDebugUtilsLabelEXT != nullptr) vkCmdEndDebugUtilsLabelEXT(commands.buffer);
 }
 
-std::span<const BindingKind> GraphBackend::kindsOf(std::span<const rendergraph::ResolvedBinding> bindings) {
-  kinds_.clear();
-  for (const auto& binding : bindings) kinds_.push_back(binding.kind);
-  return kinds_;
+void GraphBackend::writeTimestamp(const CommandStream& commands, VkPipelineStageFlags2 stage, VkQueryPool pool,
+                                  uint32_t slot) {
+  device_.vk().vkCmdWriteTimestamp2(commands.buffer, stage, pool, slot);
+}
+
+VkDescriptorSet GraphBackend::transientSet(const CommandStream& commands, VkDescriptorSetLayout layout,
+                                           std::span<const rendergraph::ResolvedBinding> bindings) {
+  return withGraphErrors({}, [&] {
+    Recorder& recorder = recorderOf(commands);
+    const VkDescriptorSet set = recorder.descriptors.allocate(layout);
+    recorder.writer.write(device_, pipelines_, set, bindings);
+    return set;
+  });
 }
 
 void GraphBackend::writeSet(VkDescriptorSet set, std::span<const rendergraph::ResolvedBinding> bindings) {
-  imageInfos_.resize(bindings.size());
-  bufferInfos_.resize(bindings.size());
-  writes_.resize(bindings.size());
-  for (uint32_t i = 0; i < bindings.size(); ++i) {
-    const auto& binding = bindings[i];
-    const bool isImage = binding.kind == BindingKind::sampledImage || binding.kind == BindingKind::storageImage;
-    if (isImage) {
-      const bool sampled = binding.kind == BindingKind::sampledImage;
-      imageInfos_[i] = {sampled ? pipelines_.sampler(binding.sampler) : VK_NULL_HANDLE, binding.view, binding.layout};
-    } else {
-      bufferInfos_[i] = {binding.buffer, 0, VK_WHOLE_SIZE};
-    }
-    writes_[i] = {VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
-    writes_[i].dstSet = set;
-    writes_[i].dstBinding = i;
-    writes_[i].descriptorCount = 1;
-    writes_[i].descriptorType = descriptorTypeOf(binding.kind);
-    writes_[i].pImageInfo = isImage ? &imageInfos_[i] : nullptr;
-    writes_[i].pBufferInfo = isImage ? nullptr : &bufferInfos_[i];
-  }
-  device_.vk().vkUpdateDescriptorSets(device_.handle(), static_cast<uint32_t>(writes_.size()), writes_.data(), 0,
-                                      nullptr);
+  SetWriter().write(device_, pipelines_, set, bindings);
 }
 
-void GraphBackend::bind(VkCommandBuffer commands, VkPipelineBindPoint point, const BoundPipeline& pipeline,
+namespace {
+
+std::span<const BindingKind> kindsOf(std::span<const rendergraph::ResolvedBinding> bindings,
+                                     std::vector<BindingKind>& kinds) {
+  kinds.clear();
+  for (const auto& binding : bindings) kinds.push_back(binding.kind);
+  return kinds;
+}
+
+}  // namespace
+
+void GraphBackend::bind(const CommandStream& commands, VkPipelineBindPoint point, const BoundPipeline& pipeline,
                         std::span<const rendergraph::ResolvedBinding> bindings,
                         std::span<const std::byte> pushConstants) {
   const auto& vk = device_.vk();
-  vk.vkCmdBindPipeline(commands, point, pipeline.pipeline);
+  vk.vkCmdBindPipeline(commands.buffer, point, pipeline.pipeline);
   if (!bindings.empty()) {
-    const VkDescriptorSet set = descriptors_.allocate(pipeline.setLayout);
-    writeSet(set, bindings);
-    vk.vkCmdBindDescriptorSets(commands, point, pipeline.layout, 0, 1, &set, 0, nullptr);
+    const VkDescriptorSet set = transientSet(commands, pipeline.setLayout, bindings);
+    vk.vkCmdBindDescriptorSets(commands.buffer, point, pipeline.layout, 0, 1, &set, 0, nullptr);
   }
   if (!pushConstants.empty()) {
-    vk.vkCmdPushConstants(commands, pipeline.layout, kAllShaderStages, 0, static_cast<uint32_t>(pushConstants.size()),
-                          pushConstants.data());
+    vk.vkCmdPushConstants(commands.buffer, pipeline.layout, kAllShaderStages, 0,
+                          static_cast<uint32_t>(pushConstants.size()), pushConstants.data());
   }
 }
 
-void GraphBackend::dispatch(VkCommandBuffer commands, const rendergraph::ResolvedDispatch& dispatch) {
-  const auto& pipeline = pipelines_.compute(dispatch.program, kindsOf(dispatch.bindings), dispatch.specialization);
+void GraphBackend::dispatch(const CommandStream& commands, const rendergraph::ResolvedDispatch& dispatch) {
+  const auto kinds = kindsOf(dispatch.bindings, recorderOf(commands).kinds);
+  const auto& pipeline = withGraphErrors({}, [&]() -> const BoundPipeline& {
+    return pipelines_.compute(dispatch.program, kinds, dispatch.specialization);
+  });
   bind(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline, dispatch.bindings, dispatch.pushConstants);
   if (dispatch.indirect != VK_NULL_HANDLE) {
-    device_.vk().vkCmdDispatchIndirect(commands, dispatch.indirect, dispatch.indirectOffset);
+    device_.vk().vkCmdDispatchIndirect(commands.buffer, dispatch.indirect, dispatch.indirectOffset);
   } else {
-    device_.vk().vkCmdDispatch(commands, dispatch.groups.x, dispatch.groups.y, dispatch.groups.z);
+    device_.vk().vkCmdDispatch(commands.buffer, dispatch.groups.x, dispatch.groups.y, dispatch.groups.z);
   }
 }
 
-void GraphBackend::draw(VkCommandBuffer commands, const rendergraph::ResolvedDraw& draw) {
-  const auto& pipeline =
-      pipelines_.raster(draw.program, kindsOf(draw.bindings), draw.specialization, draw.colorFormats, draw.depthFormat);
+void GraphBackend::draw(const CommandStream& commands, const rendergraph::ResolvedDraw& draw) {
+  const auto kinds = kindsOf(draw.bindings, recorderOf(commands).kinds);
+  const auto& pipeline = withGraphErrors({}, [&]() -> const BoundPipeline& {
+    return pipelines_.raster(draw.program, kinds, draw.specialization, draw.colorFormats, draw.depthFormat,
+                             draw.samples);
+  });
   bind(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline, draw.bindings, draw.pushConstants);
   const VkViewport viewport{
       0.0f, 0.0f, static_cast<float>(draw.renderArea.width), static_cast<float>(draw.renderArea.height), 0.0f, 1.0f};
   const VkRect2D scissor{{0, 0}, draw.renderArea};
-  device_.vk().vkCmdSetViewport(commands, 0, 1, &viewport);
-  device_.vk().vkCmdSetScissor(commands, 0, 1, &scissor);
-  device_.vk().vkCmdDraw(commands, draw.vertexCount, draw.instanceCount, 0, 0);
+  device_.vk().vkCmdSetViewport(commands.buffer, 0, 1, &viewport);
+  device_.vk().vkCmdSetScissor(commands.buffer, 0, 1, &scissor);
+  device_.vk().vkCmdDraw(commands.buffer, draw.vertexCount, draw.instanceCount, 0, 0);
 }
 
-void GraphBackend::copyImage(VkCommandBuffer commands, VkImage from, VkImage to, const VkImageCopy& region) {
-  device_.vk().vkCmdCopyImage(commands, from, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to,
+void GraphBackend::copyImage(const CommandStream& commands, VkImage from, VkImage to, const VkImageCopy& region) {
+  device_.vk().vkCmdCopyImage(commands.buffer, from, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to,
                               VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
 }
 
-void GraphBackend::copyImageToBuffer(VkCommandBuffer commands, VkImage from, VkBuffer to,
+void GraphBackend::copyImageToBuffer(const CommandStream& commands, VkImage from, VkBuffer to,
                                      const VkBufferImageCopy& region) {
-  device_.vk().vkCmdCopyImageToBuffer(commands, from, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to, 1, &region);
+  device_.vk().vkCmdCopyImageToBuffer(commands.buffer, from, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to, 1, &region);
 }
 
-void GraphBackend::copyBuffer(VkCommandBuffer commands, VkBuffer from, VkBuffer to, VkDeviceSize bytes) {
+void GraphBackend::copyBuffer(const CommandStream& commands, VkBuffer from, VkBuffer to, VkDeviceSize bytes) {
   const VkBufferCopy region{0, 0, bytes};
-  device_.vk().vkCmdCopyBuffer(commands, from, to, 1, &region);
+  device_.vk().vkCmdCopyBuffer(commands.buffer, from, to, 1, &region);
 }
 
-void GraphBackend::fillBuffer(VkCommandBuffer commands, VkBuffer to, uint32_t word) {
-  device_.vk().vkCmdFillBuffer(commands, to, 0, VK_WHOLE_SIZE, word);
+void GraphBackend::fillBuffer(const CommandStream& commands, VkBuffer to, uint32_t word) {
+  device_.vk().vkCmdFillBuffer(commands.buffer, to, 0, VK_WHOLE_SIZE, word);
 }
 
-void GraphBackend::clearImage(VkCommandBuffer commands, VkImage image, const VkClearColorValue& value,
+void GraphBackend::clearImage(const CommandStream& commands, VkImage image, const VkClearColorValue& value,
                               const VkImageSubresourceRange& range) {
-  device_.vk().vkCmdClearColorImage(commands, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &value, 1, &range);
+  device_.vk().vkCmdClearColorImage(commands.buffer, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &value, 1, &range);
 }
 
-void GraphBackend::clearDepthImage(VkCommandBuffer commands, VkImage image, float depth,
+void GraphBackend::clearDepthImage(const CommandStream& commands, VkImage image, float depth,
                                    const VkImageSubresourceRange& range) {
   const VkClearDepthStencilValue value{depth, 0};
-  device_.vk().vkCmdClearDepthStencilImage(commands, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &value, 1, &range);
+  device_.vk().vkCmdClearDepthStencilImage(commands.buffer, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &value, 1,
+                                           &range);
 }
 
 }  // namespace engine

@@ -38,8 +38,9 @@ uint32_t findMemoryType(const Device& device, uint32_t typeBits, KindProperties 
 }  // namespace
 
 MemoryBlock allocateMemory(const Device& device, VkDeviceSize size, uint32_t memoryTypeBits,
-                           rendergraph::MemoryKind kind) {
+                           rendergraph::MemoryKind kind, const VkMemoryDedicatedAllocateInfo* dedicated) {
   VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
+  info.pNext = dedicated;
   info.allocationSize = size;
   info.memoryTypeIndex = findMemoryType(device, memoryTypeBits, propertiesOf(kind));
   VkDeviceMemory memory = VK_NULL_HANDLE;

@@ -18,8 +18,9 @@ struct MemoryBlock {
 };
 
 /// Throws engine::Error when no type fits or memory runs out. `size` > 0, bytes.
+/// `dedicated`: the image or buffer that the block is to hold alone, or null.
 MemoryBlock allocateMemory(const Device& device, VkDeviceSize size, uint32_t memoryTypeBits,
-                           rendergraph::MemoryKind kind);
+                           rendergraph::MemoryKind kind, const VkMemoryDedicatedAllocateInfo* dedicated = nullptr);
 
 /// A buffer with its own memory.
 struct GpuBuffer {

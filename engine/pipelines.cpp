@@ -6,6 +6,7 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <mutex>
 
 #include "engine/raster_pipeline.h"
 
@@ -21,6 +22,19 @@ std::vector<char> readFile(const std::filesystem::path& path) {
 template <class T>
 void append(std::string& key, const T& value) {
   key.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+/// The thread's own key, begun; reused, so that a lookup allocates nothing.
+std::string& beginKey(const void* program, std::span<const BindingKind> kinds,
+                      std::span<const uint32_t> specialization) {
+  thread_local std::string key;
+  key.clear();
+  append(key, program);
+  append(key, static_cast<uint32_t>(kinds.size()));
+  key.append(reinterpret_cast<const char*>(kinds.data()), kinds.size_bytes());
+  append(key, static_cast<uint32_t>(specialization.size()));
+  key.append(reinterpret_cast<const char*>(specialization.data()), specialization.size_bytes());
+  return key;
 }
 
 /// Specialization constants 0, 1, … from words.
@@ -104,18 +118,15 @@ PipelineStore::~PipelineStore() {
   std::filesystem::remove(temporary, ignored);
 }
 
-void PipelineStore::beginKey(const void* program, std::span<const BindingKind> kinds,
-                             std::span<const uint32_t> specialization) {
-  key_.clear();
-  append(key_, program);
-  append(key_, static_cast<uint32_t>(kinds.size()));
-  key_.append(reinterpret_cast<const char*>(kinds.data()), kinds.size_bytes());
-  append(key_, static_cast<uint32_t>(specialization.size()));
-  key_.append(reinterpret_cast<const char*>(specialization.data()), specialization.size_bytes());
-}
-
 VkDescriptorSetLayout PipelineStore::setLayout(std::span<const BindingKind> kinds) {
   const std::string key(reinterpret_cast<const char*>(kinds.data()), kinds.size_bytes());
+  {
+    const std::shared_lock lock(mutex_);
+    if (const auto found = setLayouts_.find(key); found != setLayouts_.end() && found->second) {
+      return found->second.get();
+    }
+  }
+  const std::unique_lock lock(mutex_);
   auto& slot = setLayouts_[key];
   if (!slot) {
     std::vector<VkDescriptorSetLayoutBinding> bindings;
@@ -145,63 +156,88 @@ Unique<VkPipelineLayout> PipelineStore::makeLayout(VkDescriptorSetLayout set) {
   return {device_.handle(), layout, device_.vk().vkDestroyPipelineLayout};
 }
 
+template <class Make>
+const BoundPipeline& PipelineStore::find(const std::string& key, Make&& make) {
+  {
+    const std::shared_lock lock(mutex_);
+    if (const auto found = entries_.find(key); found != entries_.end()) return found->second.bound;
+  }
+  // Made without the lock: a pipeline takes long, and two threads that make the same one are rare.
+  Entry made = make();
+  const std::unique_lock lock(mutex_);
+  return entries_.try_emplace(key, std::move(made)).first->second.bound;
+}
+
 const BoundPipeline& PipelineStore::compute(const rendergraph::ComputeProgram& program,
                                             std::span<const BindingKind> kinds,
                                             std::span<const uint32_t> specialization) {
-  beginKey(&program, kinds, specialization);
-  if (const auto found = entries_.find(key_); found != entries_.end()) return found->second.bound;
-  Entry entry;
-  entry.bound.setLayout = setLayout(kinds);
-  entry.layout = makeLayout(entry.bound.setLayout);
-  const auto module = makeShaderModule(device_, program.shader, program.name);
-  const Specialization constants(specialization);
-  VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
-  info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
-  info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
-  info.stage.module = module.get();
-  info.stage.pName = "main";
-  info.stage.pSpecializationInfo = &constants.info;
-  info.layout = entry.layout.get();
-  VkPipeline pipeline = VK_NULL_HANDLE;
-  check(device_.vk().vkCreateComputePipelines(device_.handle(), cache_.get(), 1, &info, nullptr, &pipeline),
-        std::string("compute pipeline ") + program.name);
-  entry.pipeline = {device_.handle(), pipeline, device_.vk().vkDestroyPipeline};
-  device_.setName(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(pipeline), program.name);
-  entry.bound.pipeline = pipeline;
-  entry.bound.layout = entry.layout.get();
-  return entries_.emplace(key_, std::move(entry)).first->second.bound;
+  return find(beginKey(&program, kinds, specialization), [&] {
+    Entry entry;
+    entry.bound.setLayout = setLayout(kinds);
+    entry.layout = makeLayout(entry.bound.setLayout);
+    const auto module = makeShaderModule(device_, program.shader, program.name);
+    const Specialization constants(specialization);
+    VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
+    info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+    info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
+    info.stage.module = module.get();
+    info.stage.pName = "main";
+    info.stage.pSpecializationInfo = &constants.info;
+    info.layout = entry.layout.get();
+    VkPipeline pipeline = VK_NULL_HANDLE;
+    check(device_.vk().vkCreateComputePipelines(device_.handle(), cache_.get(), 1, &info, nullptr, &pipeline),
+          std::string("compute pipeline ") + program.name);
+    entry.pipeline = {device_.handle(), pipeline, device_.vk().vkDestroyPipeline};
+    device_.setName(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(pipeline), program.name);
+    entry.bound.pipeline = pipeline;
+    entry.bound.layout = entry.layout.get();
+    return entry;
+  });
 }
 
 const BoundPipeline& PipelineStore::raster(const rendergraph::RasterProgram& program,
                                            std::span<const BindingKind> kinds, std::span<const uint32_t> specialization,
-                                           std::span<const VkFormat> colorFormats, VkFormat depthFormat) {
-  beginKey(&program, kinds, specialization);
-  key_.append(reinterpret_cast<const char*>(colorFormats.data()), colorFormats.size_bytes());
-  append(key_, depthFormat);
-  if (const auto found = entries_.find(key_); found != entries_.end()) return found->second.bound;
-  Entry entry;
-  entry.bound.setLayout = setLayout(kinds);
-  entry.layout = makeLayout(entry.bound.setLayout);
-  const Specialization constants(specialization);
-  RasterPipelineDesc desc;
-  desc.name = program.name;
-  desc.vertex = program.vertex;
-  desc.geometry = program.geometry;
-  desc.fragment = program.fragment;
-  desc.state = program.state;
-  desc.specialization = &constants.info;
-  desc.colorFormats = colorFormats;
-  desc.depthFormat = depthFormat;
-  entry.pipeline = makeRasterPipeline(device_, cache_.get(), entry.layout.get(), desc);
-  entry.bound.pipeline = entry.pipeline.get();
-  entry.bound.layout = entry.layout.get();
-  return entries_.emplace(key_, std::move(entry)).first->second.bound;
+                                           std::span<const VkFormat> colorFormats, VkFormat depthFormat,
+                                           VkSampleCountFlagBits samples) {
+  std::string& key = beginKey(&program, kinds, specialization);
+  key.append(reinterpret_cast<const char*>(colorFormats.data()), colorFormats.size_bytes());
+  append(key, depthFormat);
+  append(key, samples);
+  return find(key, [&] {
+    Entry entry;
+    entry.bound.setLayout = setLayout(kinds);
+    entry.layout = makeLayout(entry.bound.setLayout);
+    const Specialization constants(specialization);
+    RasterPipelineDesc desc;
+    desc.name = program.name;
+    desc.vertex = program.vertex;
+    desc.geometry = program.geometry;
+    desc.fragment = program.fragment;
+    desc.state = program.state;
+    desc.specialization = &constants.info;
+    desc.colorFormats = colorFormats;
+    desc.depthFormat = depthFormat;
+    desc.samples = samples;
+    entry.pipeline = makeRasterPipeline(device_, cache_.get(), entry.layout.get(), desc);
+    entry.bound.pipeline = entry.pipeline.get();
+    entry.bound.layout = entry.layout.get();
+    return entry;
+  });
 }
 
 VkSampler PipelineStore::sampler(const rendergraph::SamplerDesc& desc) {
-  for (const auto& [known, sampler] : samplers_) {
-    if (known == desc) return sampler.get();
+  const auto find = [&]() -> VkSampler {
+    for (const auto& [known, sampler] : samplers_) {
+      if (known == desc) return sampler.get();
+    }
+    return VK_NULL_HANDLE;
+  };
+  {
+    const std::shared_lock lock(mutex_);
+    if (const VkSampler found = find(); found != VK_NULL_HANDLE) return found;
   }
+  const std::unique_lock lock(mutex_);
+  if (const VkSampler found = find(); found != VK_NULL_HANDLE) return found;
   VkSamplerCreateInfo info{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
   info.magFilter = info.minFilter = desc.filter;
   info.mipmapMode = desc.mipmap;

@@ -1,8 +1,10 @@
 // Pipelines, layouts and samplers, made on first use and kept; VkPipelineCache on disk.
 #pragma once
 
+#include <deque>
 #include <filesystem>
 #include <memory>
+#include <shared_mutex>
 #include <span>
 #include <string>
 #include <unordered_map>
@@ -29,7 +31,7 @@ struct BoundPipeline {
 using BindingKind = rendergraph::Binding::Kind;
 VkDescriptorType descriptorTypeOf(BindingKind kind);
 
-/// Not thread-safe. The device outlives it.
+/// Thread-safe: known objects are looked up side by side, new ones are made one at a time. The device outlives it.
 class PipelineStore {
  public:
   /// `cacheFile` empty: no disk cache. A missing, unreadable or foreign file is ignored; the driver checks its header.
@@ -44,7 +46,7 @@ class PipelineStore {
                                std::span<const uint32_t> specialization);
   const BoundPipeline& raster(const rendergraph::RasterProgram& program, std::span<const BindingKind> kinds,
                               std::span<const uint32_t> specialization, std::span<const VkFormat> colorFormats,
-                              VkFormat depthFormat);
+                              VkFormat depthFormat, VkSampleCountFlagBits samples);
 
   VkSampler sampler(const rendergraph::SamplerDesc& desc);
   /// A set layout whose binding i has kind i, visible to all stages.
@@ -57,16 +59,18 @@ class PipelineStore {
     Unique<VkPipeline> pipeline;
     BoundPipeline bound;
   };
-  void beginKey(const void* program, std::span<const BindingKind> kinds, std::span<const uint32_t> specialization);
+  /// The entry of the key, made by `make` when there is none.
+  template <class Make>
+  const BoundPipeline& find(const std::string& key, Make&& make);
   Unique<VkPipelineLayout> makeLayout(VkDescriptorSetLayout setLayout);
 
   const Device& device_;
   std::filesystem::path cacheFile_;
   Unique<VkPipelineCache> cache_;
-  std::string key_;  ///< Reused, so that a lookup allocates nothing.
+  std::shared_mutex mutex_;  ///< Of all maps below, whose elements stay where they are.
   std::unordered_map<std::string, Entry> entries_;
   std::unordered_map<std::string, Unique<VkDescriptorSetLayout>> setLayouts_;
-  std::vector<std::pair<rendergraph::SamplerDesc, Unique<VkSampler>>> samplers_;
+  std::deque<std::pair<rendergraph::SamplerDesc, Unique<VkSampler>>> samplers_;
 };
 
 Unique<VkShaderModule> makeShaderModule(const Device& device, rendergraph::SpirV code, const std::string& name);

@@ -74,7 +74,7 @@ Unique<VkPipeline> makeRasterPipeline(const Device& device, VkPipelineCache cach
   viewport.viewportCount = viewport.scissorCount = 1;
   const auto rasterization = rasterizationState(desc.state);
   VkPipelineMultisampleStateCreateInfo multisample{VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
-  multisample.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
+  multisample.rasterizationSamples = desc.samples;
   const auto depth = depthState(desc.state);
   const std::vector<VkPipelineColorBlendAttachmentState> attachments(desc.colorFormats.size(),
                                                                      blendAttachment(desc.state.blend));

@@ -18,6 +18,7 @@ struct RasterPipelineDesc {
   const VkSpecializationInfo* specialization = nullptr;
   std::span<const VkFormat> colorFormats;
   VkFormat depthFormat = VK_FORMAT_UNDEFINED;
+  VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;  ///< Of the attachments.
   std::span<const VkVertexInputBindingDescription> vertexBindings;
   std::span<const VkVertexInputAttributeDescription> vertexAttributes;
 };

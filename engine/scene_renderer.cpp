@@ -71,6 +71,7 @@ struct SceneRenderer::EmitPipeline {
   bool lit;
   std::vector<VkFormat> colorFormats;
   VkFormat depthFormat;
+  VkSampleCountFlagBits samples;
   VkDescriptorSetLayout emitSetLayout = VK_NULL_HANDLE;  ///< Null when the emit binds nothing.
   Unique<VkPipelineLayout> layout;
   Unique<VkPipeline> pipeline;
@@ -151,9 +152,11 @@ void SceneRenderer::setViewpoint(const SceneViewpoint& viewpoint) {
 }
 
 SceneRenderer::EmitPipeline& SceneRenderer::pipelineFor(const SceneDrawRequest& request, bool masked) {
+  const std::scoped_lock lock(pipelinesMutex_);
   for (const auto& known : pipelines_) {
     if (known->emit == request.emit && known->masked == masked && known->lit == lit_ &&
-        known->depthFormat == request.depthFormat && std::ranges::equal(known->colorFormats, request.colorFormats)) {
+        known->samples == request.samples && known->depthFormat == request.depthFormat &&
+        std::ranges::equal(known->colorFormats, request.colorFormats)) {
       return *known;
     }
   }
@@ -163,6 +166,7 @@ SceneRenderer::EmitPipeline& SceneRenderer::pipelineFor(const SceneDrawRequest& 
   made->lit = lit_;
   made->colorFormats.assign(request.colorFormats.begin(), request.colorFormats.end());
   made->depthFormat = request.depthFormat;
+  made->samples = request.samples;
   std::vector<VkDescriptorSetLayout> sets = {sceneSetLayout_, gpu_.materialSetLayout()};
   if (!request.emitBindings.empty()) {
     std::vector<BindingKind> kinds;
@@ -191,6 +195,7 @@ SceneRenderer::EmitPipeline& SceneRenderer::pipelineFor(const SceneDrawRequest& 
   desc.specialization = &specialization;
   desc.colorFormats = request.colorFormats;
   desc.depthFormat = request.depthFormat;
+  desc.samples = request.samples;
   desc.vertexBindings = {&kVertexBinding, 1};
   desc.vertexAttributes = kAttributes;
   made->pipeline = makeRasterPipeline(device_, backend_.pipelines().cache(), layout, desc);
@@ -213,8 +218,9 @@ void SceneRenderer::bindFrame(VkCommandBuffer commands, const SceneDrawRequest& 
   vk.vkCmdPushConstants(commands, layout, kAllShaderStages, 0, sizeof request.view, &request.view);
 }
 
-void SceneRenderer::draw(VkCommandBuffer commands, const SceneDrawRequest& request) {
+void SceneRenderer::draw(const rendergraph::CommandStream& stream, const SceneDrawRequest& request) {
   const auto& vk = device_.vk();
+  const VkCommandBuffer commands = stream.buffer;
   const EmitPipeline* bound = nullptr;
   uint32_t boundMaterial = kNoIndex;
   VkDescriptorSet emitSet = VK_NULL_HANDLE;
@@ -228,8 +234,7 @@ void SceneRenderer::draw(VkCommandBuffer commands, const SceneDrawRequest& reque
       bound = &pipeline;
     }
     if (emitSet == VK_NULL_HANDLE && pipeline.emitSetLayout != VK_NULL_HANDLE) {
-      emitSet = backend_.transientSet(pipeline.emitSetLayout);
-      backend_.writeSet(emitSet, request.emitBindings);
+      emitSet = backend_.transientSet(stream, pipeline.emitSetLayout, request.emitBindings);
       vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.layout.get(), 2, 1, &emitSet, 0,
                                  nullptr);
     }

@@ -5,6 +5,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <vector>
@@ -33,10 +34,11 @@ struct SceneDrawRequest {
   VkExtent2D extent = {0, 0};              ///< px
   std::span<const VkFormat> colorFormats;  ///< Of the rendering that is going on.
   VkFormat depthFormat = VK_FORMAT_UNDEFINED;
+  VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
   std::span<const rendergraph::ResolvedBinding> emitBindings;  ///< Descriptor set 2.
 };
 
-/// The backend outlives it. Not thread-safe.
+/// The backend outlives it. Not thread-safe, except that draw() may be called from several recordings at once.
 class SceneRenderer {
  public:
   /// Uploads the scene (not needed afterwards). `environment` lights it when shading is lit.
@@ -50,7 +52,7 @@ class SceneRenderer {
   bool hasTransparency() const { return gpu_.hasTransparency(); }
 
   /// Records the draws. Precondition: rendering with the given formats has begun.
-  void draw(VkCommandBuffer commands, const SceneDrawRequest& request);
+  void draw(const rendergraph::CommandStream& commands, const SceneDrawRequest& request);
 
  private:
   struct EmitPipeline;
@@ -69,6 +71,7 @@ class SceneRenderer {
   Unique<VkDescriptorPool> pool_;
   VkDescriptorSetLayout sceneSetLayout_ = VK_NULL_HANDLE;
   VkDescriptorSet sceneSet_ = VK_NULL_HANDLE;
+  std::mutex pipelinesMutex_;
   std::vector<std::unique_ptr<EmitPipeline>> pipelines_;
 };
 

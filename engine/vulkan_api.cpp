@@ -45,10 +45,11 @@ std::string_view nameOf(VkResult result) {
   }
 }
 
+VulkanError::VulkanError(std::string_view what, VkResult result)
+    : Error(std::string(what) + " failed: " + std::string(nameOf(result)), ErrorKind::failed), result_(result) {}
+
 void check(VkResult result, std::string_view what) {
-  if (result != VK_SUCCESS) {
-    throw Error(std::string(what) + " failed: " + std::string(nameOf(result)), ErrorKind::failed);
-  }
+  if (result != VK_SUCCESS) throw VulkanError(what, result);
 }
 
 void throwDeviceError(std::string reason, std::string remedy) {

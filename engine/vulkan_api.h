@@ -7,9 +7,21 @@
 #include <string_view>
 #include <utility>
 
+#include "engine/error.h"
+
 namespace engine {
 
-/// Throws engine::Error "what failed: VK_ERROR_…" unless the result is VK_SUCCESS.
+/// What check() throws: an Error (kind failed) that remembers the result.
+class VulkanError : public Error {
+ public:
+  VulkanError(std::string_view what, VkResult result);
+  VkResult result() const { return result_; }
+
+ private:
+  VkResult result_;
+};
+
+/// Throws VulkanError "what failed: VK_ERROR_…" unless the result is VK_SUCCESS.
 void check(VkResult result, std::string_view what);
 std::string_view nameOf(VkResult result);
 
@@ -39,6 +51,8 @@ class Unique {
 
   Object get() const { return object_; }
   explicit operator bool() const { return object_ != VK_NULL_HANDLE; }
+  /// Gives the object up: the caller destroys it.
+  Object release() { return std::exchange(object_, VK_NULL_HANDLE); }
   void reset() {
     if (object_ != VK_NULL_HANDLE) destroy_(device_, std::exchange(object_, VK_NULL_HANDLE), nullptr);
   }

@@ -64,6 +64,12 @@ std::string_view nameOf(Misuse misuse) {
       return "import state";
     case Misuse::subresourceRange:
       return "subresource range";
+    case Misuse::unfinishedFrame:
+      return "unfinished frame";
+    case Misuse::outOfMemory:
+      return "out of memory";
+    case Misuse::deviceLost:
+      return "device lost";
     case Misuse::device:
       return "device";
   }

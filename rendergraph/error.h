@@ -24,7 +24,10 @@ enum class Misuse {
   overLimit,         ///< Larger than the device allows, or of size zero.
   importState,       ///< An imported or exported resource without the state that it needs.
   subresourceRange,  ///< Mips or layers outside the image.
-  device,            ///< The backend failed: out of memory, device lost.
+  unfinishedFrame,   ///< Asked for what a frame has left before it was waited for.
+  outOfMemory,       ///< Device or host memory: something smaller may succeed.
+  deviceLost,        ///< Nothing succeeds until device, backend and executor are made anew.
+  device,            ///< The backend failed in another way.
 };
 
 /// The one exception of the graph. what() is a single line: pass, resource, reason, remedy, source location.

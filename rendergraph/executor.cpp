@@ -1,13 +1,11 @@
 // The public face: one execution from declaration to results, and the questions one may ask afterwards.
 #include "rendergraph/executor.h"
 
-#include <algorithm>
 #include <string>
 
 #include "rendergraph/capture_bytes.h"
 #include "rendergraph/executor_state.h"
 #include "rendergraph/frame.h"
-#include "rendergraph/naming.h"
 
 namespace rendergraph {
 
@@ -24,120 +22,105 @@ void ExportTable::take(const Declaration& declaration, const BindingTable& table
 
 namespace {
 
+[[noreturn]] void refuse(Misuse misuse, const char* reason, const char* remedy) {
+  throw GraphError({{.misuse = misuse, .pass = {}, .resource = {}, .reason = reason, .remedy = remedy, .where = {}}});
+}
+
+/// The slot of the latest frame that this graph gave.
 template <class Tag>
-const Bound& exportedOf(const ExportTable& exports, const Handle<Tag>& handle) {
-  const auto fail = [](Misuse misuse, const char* reason, const char* remedy) {
-    throw GraphError({{.misuse = misuse, .pass = {}, .resource = {}, .reason = reason, .remedy = remedy, .where = {}}});
-  };
+const FrameSlot& exporterOf(const std::vector<FrameSlot>& slots, const Handle<Tag>& handle) {
   if (!handle) {
-    fail(Misuse::unknownHandle, "the handle was never given a resource", "use a handle that the graph returned");
+    refuse(Misuse::unknownHandle, "the handle was never given a resource", "use a handle that the graph returned");
   }
-  if (handle.graph != exports.serial || handle.resource >= exports.bound.size()) {
-    fail(Misuse::foreignHandle, "the handle does not belong to the graph executed last",
-         "look exports up before the next execution");
+  const FrameSlot* latest = nullptr;
+  for (const FrameSlot& slot : slots) {
+    const bool isIts = slot.exports.serial == handle.graph && handle.resource < slot.exports.bound.size();
+    if (isIts && (latest == nullptr || slot.frame > latest->frame)) latest = &slot;
   }
-  if (!exports.exported[handle.resource]) {
-    fail(Misuse::importState, "the resource was not exported", "call exportImage() or exportBuffer() on it");
+  if (latest == nullptr) {
+    refuse(Misuse::foreignHandle, "the handle does not belong to a graph executed lately",
+           "look exports up before the executions that replace them (ExecutorOptions::framesInFlight)");
   }
-  return exports.bound[handle.resource];
+  if (!latest->exports.exported[handle.resource]) {
+    refuse(Misuse::importState, "the resource was not exported", "call exportImage() or exportBuffer() on it");
+  }
+  return *latest;
+}
+
+CompileOptions compileOptionsOf(const ExecuteOptions& options, std::size_t framesInFlight) {
+  CompileOptions compile = options.compile;
+  if (framesInFlight > 1) compile.overlappingFrames = true;
+  if (options.timing != Timing::isolated) return compile;
+  compile.mergeRasterPasses = false;  // What is to be timed alone stands alone.
+  compile.splitDistance = 0;
+  compile.useQueues = false;
+  return compile;
 }
 
 }  // namespace
 
-void Executor::State::makeResources() {
-  plans.releaseResources(PlanCache::kWithResources);
-  if (current->resources) return;
-  try {
-    current->resources = std::make_unique<PlanResources>(backend, pool, *declaration, current->plan);
-  } catch (const GraphError&) {
-    // The other plans' objects may be what fills the memory; without them it gets one more chance.
-    plans.releaseResources(1);
-    current->resources = std::make_unique<PlanResources>(backend, pool, *declaration, current->plan);
+Executor::Executor(Backend& backend, const ExecutorOptions& options) {
+  if (options.framesInFlight < 1 || options.framesInFlight > 4) {
+    refuse(Misuse::overLimit, "the number of frames in flight is not 1 … 4", "2 or 3 keep a device busy");
   }
+  state_ = std::make_unique<ExecutorState>(backend, options);
 }
-
-void Executor::State::prepare(const Declaration& declared, const CompileOptions& options) {
-  // Problems with handles leave no trace in the structure, so an equal structure does not excuse them.
-  if (!declared.problems.empty()) throw GraphError(declared.problems);
-  current = nullptr;
-  exports = {};
-  importedViews.clear();
-  declaration = &declared;
-  const uint64_t hash = structuralHash(declared, options);
-  CachedPlan* found = plans.find(hash);
-  capture.planReused = found != nullptr;
-  if (found != nullptr) {
-    ++reused;
-  } else {
-    found = &plans.add(hash, compile(declared, options, backend));
-    ++compiled;
-  }
-  current = found;
-  bound.assign(declared.resources.size(), {});
-  for (uint32_t index = 0; index < declared.resources.size(); ++index) {
-    const DeclaredResource& resource = declared.resources[index];
-    if (!resource.imported()) continue;
-    bound[index] = {.image = resource.importedImage, .buffer = resource.importedBuffer, .views = &importedViews};
-  }
-  makeResources();
-  current->resources->bind(current->plan, bound);
-  retained.prepare(declared, current->plan, bound);
-}
-
-VkImageView Executor::State::viewOf(uint32_t resource, const Subresources& range, VkImageViewType type) {
-  const DeclaredResource& declared = declaration->resources[resource];
-  const Bound& object = bound[resource];
-  return namingResource(declared.name, [&] {
-    return object.views->get(
-        backend, {.image = object.image, .format = declared.image.format, .type = type, .range = range}, declared.name);
-  });
-}
-
-void Executor::State::finish() {
-  declaration = nullptr;
-  planned = nullptr;
-}
-
-Executor::Executor(Backend& backend) : state_(std::make_unique<State>(backend)) {}
 Executor::~Executor() = default;
 
-void Executor::execute(const Graph& graph, const ExecuteOptions& options) {
+FrameToken Executor::submit(const Graph& graph, const ExecuteOptions& options) {
   const Clock::time_point start = Clock::now();
   const Declaration& declaration = graph.declaration();
-  Frame frame(*this, *state_, options.timing);
+  if (options.timing == Timing::isolated) state_->waitForAll();
+  FrameSlot& slot = state_->openSlot();
+  slot.start = start;
   try {
-    state_->prepare(declaration, options.compile);
-    beginCapture(state_->capture, declaration, state_->current->plan, options.timing);
-    frame.execute();
+    state_->prepare(declaration, compileOptionsOf(options, state_->slots.size()), slot, options.timing);
+    Frame(*state_, slot, options.timing, options.recordingThreads).execute();
+    slot.exports.take(declaration, state_->frame.bound);
   } catch (...) {
-    if (frame.submitted()) state_->retained.invalidate();
-    state_->importedViews.clear();
-    state_->finish();
+    state_->abandon(slot);
     throw;
   }
-  state_->retained.commit();
-  state_->importedViews.clear();
-  state_->exports.take(declaration, state_->bound);
-  state_->capture.frameWallMs = millisecondsSince(start);
-  state_->finish();
+  state_->closeSlot(slot, FrameSlot::State::submitted);
+  return {slot.frame};
+}
+
+void Executor::wait(FrameToken frame) {
+  state_->waitFor(frame.number);
+}
+
+bool Executor::isFinished(FrameToken frame) const {
+  for (const FrameSlot& slot : state_->slots) {
+    if (slot.state != FrameSlot::State::submitted || slot.frame > frame.number) continue;
+    for (const SentSubmission& sent : slot.sent) {
+      const VkSemaphore timeline = state_->timelines[sent.queue].semaphore.get();
+      if (state_->backend.timelineValue(timeline) < sent.value) return false;
+    }
+  }
+  return true;
+}
+
+void Executor::execute(const Graph& graph, const ExecuteOptions& options) {
+  wait(submit(graph, options));
 }
 
 void Executor::record(const Graph& graph, VkCommandBuffer commands, const ExecuteOptions& options) {
-  const Clock::time_point start = Clock::now();
   const Declaration& declaration = graph.declaration();
-  Frame frame(*this, *state_, Timing::none);
+  FrameSlot& slot = state_->openSlot();
+  slot.start = Clock::now();
+  CompileOptions compile = compileOptionsOf({.compile = options.compile}, state_->slots.size());
+  compile.useQueues = false;
   try {
-    state_->prepare(declaration, options.compile);
-    beginCapture(state_->capture, declaration, state_->current->plan, Timing::none);
-    frame.record(commands);
+    state_->prepare(declaration, compile, slot, Timing::none);
+    Frame(*state_, slot, Timing::none, 1).record(commands);
+    slot.exports.take(declaration, state_->frame.bound);
   } catch (...) {
-    state_->finish();
+    state_->abandon(slot);
     throw;
   }
-  state_->retained.commit();
-  state_->exports.take(declaration, state_->bound);
-  state_->capture.frameWallMs = millisecondsSince(start);
-  state_->finish();
+  slot.capture.frameWallMs = millisecondsSince(slot.start);
+  std::swap(state_->capture, slot.capture);
+  state_->closeSlot(slot, FrameSlot::State::recorded);
 }
 
 const Plan& Executor::plan() const {
@@ -150,17 +133,21 @@ const Capture& Executor::capture() const {
 }
 
 VkImage Executor::exportedImage(Image image) const {
-  return exportedOf(state_->exports, image).image;
+  return exporterOf(state_->slots, image).exports.bound[image.resource].image;
 }
 
 VkBuffer Executor::exportedBuffer(Buffer buffer) const {
-  return exportedOf(state_->exports, buffer).buffer;
+  return exporterOf(state_->slots, buffer).exports.bound[buffer.resource].buffer;
 }
 
 std::span<const std::byte> Executor::mapped(Buffer buffer) const {
-  const Bound& bound = exportedOf(state_->exports, buffer);
+  const FrameSlot& slot = exporterOf(state_->slots, buffer);
+  if (slot.state == FrameSlot::State::submitted) {
+    refuse(Misuse::unfinishedFrame, "the frame that fills the buffer was not waited for", "call wait() before");
+  }
+  const Bound& bound = slot.exports.bound[buffer.resource];
   if (bound.address == nullptr) return {};
-  return {bound.address, static_cast<std::size_t>(state_->exports.sizes[buffer.resource])};
+  return {bound.address, static_cast<std::size_t>(slot.exports.sizes[buffer.resource])};
 }
 
 uint64_t Executor::plansCompiled() const {
@@ -171,11 +158,8 @@ uint64_t Executor::plansReused() const {
 }
 
 void Executor::clear() {
-  state_->current = nullptr;
-  state_->exports = {};
-  state_->importedViews.clear();
-  state_->retained.clear();
-  state_->plans.clear();
+  state_->waitForAll();
+  state_->forget();
 }
 
 }  // namespace rendergraph

@@ -1,68 +1,96 @@
 // The inside of an Executor, shared by the files that implement it.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
-#include "rendergraph/binding_table.h"
-#include "rendergraph/declaration.h"
 #include "rendergraph/executor.h"
+#include "rendergraph/frame_context.h"
+#include "rendergraph/frame_slot.h"
+#include "rendergraph/graveyard.h"
+#include "rendergraph/jobs.h"
 #include "rendergraph/plan_cache.h"
 #include "rendergraph/plan_resources.h"
 #include "rendergraph/retained_store.h"
-#include "rendergraph/view_cache.h"
+#include "rendergraph/step_recorder.h"
 
 namespace rendergraph {
 
-using Clock = std::chrono::steady_clock;
-
-inline double millisecondsSince(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
-/// What the latest execution exported, so that it can be looked up when the graph is gone.
-struct ExportTable {
-  uint32_t serial = 0;  // Of the declaration.
-  BindingTable bound;
-  std::vector<uint8_t> exported;
-  std::vector<VkDeviceSize> sizes;  // Of buffers, bytes.
-  void take(const Declaration& declaration, const BindingTable& table);
+/// Steps recorded into one command buffer, one after the other.
+struct Chunk {
+  uint32_t submission = 0;
+  uint32_t firstStep = 0, steps = 0;
+  uint32_t lane = 0;    // The recorder that records it; a lane's chunks lie next to each other.
+  bool starts = false;  // Begins the frame.
+  bool ends = false;    // Ends its submission.
+  CommandStream commands;
 };
 
-struct Executor::State {
-  explicit State(Backend& device) : backend(device), retained(device) {}
+struct Timeline {
+  OwnedTimeline semaphore;
+  uint64_t value = 0;  // Of the last submission that was accepted.
+};
+
+struct ExecutorState {
+  ExecutorState(Backend& device, const ExecutorOptions& chosen);
+  ~ExecutorState();
 
   // Declared in the order in which things may use one another; destroyed the other way round.
   Backend& backend;
+  ExecutorOptions options;
+  std::vector<Timeline> timelines;  // By queue; made with the first submission.
+  Graveyard graveyard;
   HeapPool pool;
-  PlanCache plans;
+  PlanCache plans{graveyard};
   RetainedStore retained;
-  ViewCache importedViews;  // A host may destroy an imported image after any frame, so these live for one.
+  std::vector<FrameSlot> slots;
 
-  // Of the latest execution:
+  uint64_t lastFrame = 0;  // Number of the latest frame that was submitted or recorded.
+  uint64_t lastHash = 0;   // Plan of the latest frame; 0: there is none, or it broke off.
   CachedPlan* current = nullptr;
-  Capture capture;
-  ExportTable exports;
+  Capture capture;  // Of the latest frame that was waited for, or recorded.
   uint64_t compiled = 0, reused = 0;
 
-  // During an execution:
-  const Declaration* declaration = nullptr;
-  BindingTable bound;
-  // During a recording:
-  const PlannedPass* planned = nullptr;
-  std::vector<VkFormat> colorFormats;
-  VkFormat depthFormat = VK_FORMAT_UNDEFINED;
-  std::vector<ResolvedBinding> bindings;  // Reused from call to call.
+  // During a frame, and kept for their memory:
+  FrameContext frame;
+  std::vector<std::unique_ptr<StepRecorder>> lanes;
+  std::vector<Chunk> chunks;
+  std::vector<uint64_t> values;  // That stand for the plan's submissions, each on its queue's timeline.
+  std::vector<VkSemaphoreSubmitInfo> waits;
+  std::vector<VkCommandBufferSubmitInfo> buffers;
+  std::vector<VkSemaphore> waitedSemaphores;
+  std::vector<uint64_t> waitedValues;
+  std::unique_ptr<ThreadPool> threads;  // Unless the host gave its own.
 
-  /// Finds or compiles the plan, makes its objects, and fills the table. Throws GraphError.
-  void prepare(const Declaration& declaration, const CompileOptions& options);
-  VkImageView viewOf(uint32_t resource, const Subresources& range, VkImageViewType type);
-  /// Drops what lives only as long as one execution.
-  void finish();
+  /// The slot for the next frame; waits for the frame that used it last. Throws GraphError (deviceLost, device).
+  FrameSlot& openSlot();
+  /// Finds or compiles the plan, makes its objects, and fills the frame context. Throws GraphError.
+  void prepare(const Declaration& declaration, const CompileOptions& options, FrameSlot& slot, Timing timing);
+  /// The frame was submitted or recorded.
+  void closeSlot(FrameSlot& slot, FrameSlot::State state);
+  /// The frame broke off. Waits for what was submitted of it.
+  void abandon(FrameSlot& slot) noexcept;
+  /// Waits for the slot's frame and takes what it measured. Throws GraphError (deviceLost, device).
+  void finish(FrameSlot& slot);
+  /// Waits for all frames up to this one.
+  void waitFor(uint64_t frame);
+  /// This frame and all before it have finished, as far as the executor was told.
+  uint64_t finishedFrame() const;
+  void waitForAll() { waitFor(lastFrame); }
+  void makeTimelines();
+  /// Waits until these submissions of the slot's frame have finished. Throws GraphError (deviceLost, device) that says
+  /// where the device stopped, as far as that can be known.
+  void waitForDevice(const FrameSlot& slot, std::span<const SentSubmission> sent);
+  Jobs& jobs(uint32_t threadsWanted);
+  /// Destroys resources and plans. No frame is under way.
+  void forget();
 
  private:
-  void makeResources();
+  void makeResources(const Declaration& declaration, uint32_t slot);
+  void readStamps(FrameSlot& slot);
+  void openTimestamps(FrameSlot& slot);
+  const SentSubmission* unfinished(const FrameSlot& slot) const;
 };
 
 }  // namespace rendergraph

@@ -1,8 +1,8 @@
-// Records the passes of a plan, and submits them unless the host does.
+// Records the steps of a plan, on as many threads as are asked for, and submits them unless the host does.
 #pragma once
 
 #include <cstdint>
-#include <vector>
+#include <span>
 
 #include "rendergraph/executor_state.h"
 
@@ -10,39 +10,37 @@ namespace rendergraph {
 
 class Frame {
  public:
-  Frame(Executor& executor, Executor::State& state, Timing timing)
-      : executor_(executor), state_(state), timing_(timing) {}
+  /// `threads`: that record at once, at least 1.
+  Frame(ExecutorState& state, FrameSlot& slot, Timing timing, uint32_t threads)
+      : state_(state), slot_(slot), timing_(timing), threads_(threads) {}
 
   /// Records and submits everything. What a recording throws passes through.
   void execute();
   /// Records everything into the host's command buffer.
   void record(VkCommandBuffer commands);
-  /// Whether anything was submitted.
-  bool submitted() const { return submitted_; }
 
  private:
-  void open();
-  double submit();
-  void recordPass(uint32_t step);
-  void recordHostPass(uint32_t step);
-  void recordBarriers(const BarrierBatch& batch);
-  void beginRendering(const PlannedPass& planned);
-  void runRecording(const PlannedPass& planned);
-  void noteRecording(uint32_t step, double startMs);
-  void stamp(uint32_t step);
-  void readStamps(double submitMs);
+  bool needsStart() const;
+  void recordStart(const CommandStream& commands);
+  bool endsWithHostPass(uint32_t submission) const;
+  uint32_t deviceSteps(uint32_t submission) const;
+  void cutChunks(uint32_t first, uint32_t last);
+  void cutSubmission(uint32_t submission, uint32_t& position, uint32_t total, uint32_t lanes);
+  void openLanes();
+  void recordLane(uint32_t lane);
+  void recordChunk(Chunk& chunk);
+  void recordSegment(uint32_t first, uint32_t last);
+  void submit(uint32_t submission, std::span<const Chunk> chunks);
+  void submitMeasured(uint32_t submission, std::span<const Chunk> chunks);
+  void submitSegment(uint32_t first, uint32_t last);
+  void waitForSubmission(uint32_t submission);
+  OwnedRecorder& recorder(uint32_t lane, uint32_t queue);
+  void refuseHostPasses() const;
 
-  Executor& executor_;
-  Executor::State& state_;
+  ExecutorState& state_;
+  FrameSlot& slot_;
   Timing timing_;
-  VkCommandBuffer commands_ = VK_NULL_HANDLE;
-  bool opened_ = false;
-  bool submitted_ = false;
-  const Clock::time_point start_ = Clock::now();  // Of the frame; captures count from it.
-  double recordedMs_ = 0.0;                       // Sum over the passes.
-  std::vector<uint32_t> stamped_;                 // Steps with two timestamps in the open submission.
-  std::vector<VkImageMemoryBarrier2> imageBarriers_;
-  std::vector<VkBufferMemoryBarrier2> bufferBarriers_;
+  uint32_t threads_;
 };
 
 }  // namespace rendergraph

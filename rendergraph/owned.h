@@ -33,5 +33,9 @@ using OwnedHeap = Owned<HeapId, &Backend::destroyHeap>;
 using OwnedImage = Owned<VkImage, &Backend::destroyImage>;
 using OwnedBuffer = Owned<VkBuffer, &Backend::destroyBuffer>;
 using OwnedView = Owned<VkImageView, &Backend::destroyView>;
+using OwnedEvent = Owned<VkEvent, &Backend::destroyEvent>;
+using OwnedRecorder = Owned<RecorderId, &Backend::destroyRecorder>;
+using OwnedTimeline = Owned<VkSemaphore, &Backend::destroyTimeline>;
+using OwnedTimestamps = Owned<VkQueryPool, &Backend::destroyTimestamps>;
 
 }  // namespace rendergraph

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "rendergraph/access.h"
+#include "rendergraph/command_stream.h"
 #include "rendergraph/handle.h"
 #include "rendergraph/program.h"
 #include "rendergraph/resource.h"
@@ -17,7 +18,7 @@
 namespace rendergraph {
 
 class Graph;
-class Executor;
+class StepRecorder;
 
 enum class PassKind : uint8_t {
   raster,  ///< Draws into attachments (dynamic rendering is begun and ended around the recording).
@@ -49,13 +50,16 @@ struct DepthAttachment {
 
 /// What a recording may touch. Lives only during the recording call; do not keep it.
 /// Every resource given to it must have been declared by the pass, else GraphError (undeclaredAccess).
+/// When the host asks for several recording threads, recordings of different passes run at once: each may use its own
+/// context and captures freely, and must guard whatever it shares with the recordings of other passes.
 class PassContext {
  public:
-  PassContext(Executor& executor, uint32_t pass, VkCommandBuffer commands)
-      : executor_(executor), pass_(pass), commands_(commands) {}
+  PassContext(StepRecorder& recorder, uint32_t pass) : recorder_(recorder), pass_(pass) {}
 
   /// For hosts that record Vulkan themselves. State that a recording sets is not restored for the next pass.
-  VkCommandBuffer commandBuffer() const { return commands_; }
+  VkCommandBuffer commandBuffer() const { return commands().buffer; }
+  /// The same with the backend's recorder, for transient objects of the backend's own kind. Null in a host pass.
+  CommandStream commands() const;
   VkImage image(Image image) const;
   VkImageView view(Image image, Subresources range = {}, VkImageViewType type = VK_IMAGE_VIEW_TYPE_2D) const;
   VkBuffer buffer(Buffer buffer) const;
@@ -65,7 +69,8 @@ class PassContext {
   VkExtent2D extent(Image image, uint32_t mipLevel = 0) const;
   /// Formats of this raster pass's attachments, to make pipelines for it.
   std::span<const VkFormat> colorFormats() const;
-  VkFormat depthFormat() const;  ///< UNDEFINED without depth attachment.
+  VkFormat depthFormat() const;           ///< UNDEFINED without depth attachment.
+  VkSampleCountFlagBits samples() const;  ///< Of the attachments.
 
   void dispatch(const Dispatch& dispatch);
   void draw(const Draw& draw);
@@ -81,9 +86,8 @@ class PassContext {
 
  private:
   struct Inside;
-  Executor& executor_;
+  StepRecorder& recorder_;
   uint32_t pass_;
-  VkCommandBuffer commands_;
 };
 
 /// Declares one pass. Returned by Graph::addPass; a light reference that must not outlive the graph.

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <string>
 
-#include "rendergraph/executor_state.h"
 #include "rendergraph/pass.h"
+#include "rendergraph/step_recorder.h"
 
 namespace rendergraph {
 
@@ -111,14 +111,17 @@ class Access {
 
 }  // namespace
 
-/// Reaches into the executor for PassContext, which is a friend of it.
+/// Reaches into the recorder for PassContext, which is a friend of it.
 struct PassContext::Inside {
   explicit Inside(const PassContext& context)
-      : state(*context.executor_.state_), access(*state.declaration, context.pass_), commands(context.commands_) {}
+      : frame(*context.recorder_.frame_),
+        access(*frame.declaration, context.pass_),
+        commands(context.recorder_.commands_),
+        bindings(context.recorder_.bindings_) {}
 
   /// Commands are recorded by every pass but host passes.
-  VkCommandBuffer recording(uint32_t pass) const {
-    if (state.declaration->passes[pass].kind == PassKind::host) {
+  const CommandStream& recording(uint32_t pass) const {
+    if (frame.declaration->passes[pass].kind == PassKind::host) {
       access.fail(Misuse::undeclaredAccess, kNone, "a host pass records no commands",
                   "make it a compute, raster or transfer pass");
     }
@@ -139,41 +142,46 @@ struct PassContext::Inside {
           access.fail(Misuse::subresourceRange, resource, "a storage image binding shows one mip", "name one mip");
         }
         result.layout = access.as(binding.image, usage, range).layout;
-        result.view = state.viewOf(resource, range, binding.viewType);
+        result.view = frame.viewOf(resource, range, binding.viewType);
         result.sampler = binding.sampler;
         break;
       }
       case Binding::Kind::storageBuffer:
-        result.buffer = state.bound[access.as(binding.buffer, Usage::storage).resource].buffer;
+        result.buffer = frame.bound[access.as(binding.buffer, Usage::storage).resource].buffer;
         break;
       case Binding::Kind::uniformBuffer:
-        result.buffer = state.bound[access.as(binding.buffer, Usage::uniform).resource].buffer;
+        result.buffer = frame.bound[access.as(binding.buffer, Usage::uniform).resource].buffer;
         break;
     }
     return result;
   }
 
-  std::span<const ResolvedBinding> resolve(std::span<const Binding> bindings) const {
-    state.bindings.clear();
-    for (const Binding& binding : bindings) state.bindings.push_back(resolve(binding));
-    return state.bindings;
+  std::span<const ResolvedBinding> resolve(std::span<const Binding> bound) const {
+    bindings.clear();
+    for (const Binding& binding : bound) bindings.push_back(resolve(binding));
+    return bindings;
   }
 
   const ImageDesc& desc(const DeclaredAccess& declared) const {
-    return state.declaration->resources[declared.resource].image;
+    return frame.declaration->resources[declared.resource].image;
   }
   VkDeviceSize bytes(const DeclaredAccess& declared) const {
-    return state.declaration->resources[declared.resource].buffer.size;
+    return frame.declaration->resources[declared.resource].buffer.size;
   }
 
-  Executor::State& state;
+  FrameContext& frame;
   Access access;
-  VkCommandBuffer commands;
+  const CommandStream& commands;
+  std::vector<ResolvedBinding>& bindings;
 };
+
+CommandStream PassContext::commands() const {
+  return recorder_.commands_;
+}
 
 VkImage PassContext::image(Image image) const {
   const Inside inside(*this);
-  return inside.state.bound[inside.access.any(image)].image;
+  return inside.frame.bound[inside.access.any(image)].image;
 }
 
 VkImageView PassContext::view(Image image, Subresources range, VkImageViewType type) const {
@@ -184,43 +192,47 @@ VkImageView PassContext::view(Image image, Subresources range, VkImageViewType t
     inside.access.fail(Misuse::undeclaredAccess, resource, "the view shows subresources that the pass has not declared",
                        "view the declared range, or declare all of it");
   }
-  return inside.state.viewOf(resource, seen, type);
+  return inside.frame.viewOf(resource, seen, type);
 }
 
 VkBuffer PassContext::buffer(Buffer buffer) const {
   const Inside inside(*this);
-  return inside.state.bound[inside.access.any(buffer)].buffer;
+  return inside.frame.bound[inside.access.any(buffer)].buffer;
 }
 
 std::span<std::byte> PassContext::mapped(Buffer buffer) const {
   const Inside inside(*this);
   const DeclaredAccess& declared = inside.access.as(buffer, Usage::host);
-  std::byte* address = inside.state.bound[declared.resource].address;
+  std::byte* address = inside.frame.bound[declared.resource].address;
   if (address == nullptr) return {};  // Imported: the host knows where it is.
   return {address, static_cast<std::size_t>(inside.bytes(declared))};
 }
 
 VkExtent2D PassContext::extent(Image image, uint32_t mipLevel) const {
   const Inside inside(*this);
-  return mipExtent(inside.state.declaration->resources[inside.access.any(image)].image, mipLevel);
+  return mipExtent(inside.frame.declaration->resources[inside.access.any(image)].image, mipLevel);
 }
 
 std::span<const VkFormat> PassContext::colorFormats() const {
-  return executor_.state_->colorFormats;
+  return recorder_.colorFormats_;
 }
 
 VkFormat PassContext::depthFormat() const {
-  return executor_.state_->depthFormat;
+  return recorder_.depthFormat_;
+}
+
+VkSampleCountFlagBits PassContext::samples() const {
+  return recorder_.samples_;
 }
 
 void PassContext::dispatch(const Dispatch& dispatch) {
   const Inside inside(*this);
-  const VkCommandBuffer commands = inside.recording(pass_);
+  const CommandStream& commands = inside.recording(pass_);
   VkBuffer indirect = VK_NULL_HANDLE;
   if (dispatch.indirect) {
-    indirect = inside.state.bound[inside.access.as(dispatch.indirect, Usage::indirect).resource].buffer;
+    indirect = inside.frame.bound[inside.access.as(dispatch.indirect, Usage::indirect).resource].buffer;
   }
-  inside.state.backend.dispatch(commands, {.program = dispatch.program,
+  inside.frame.backend.dispatch(commands, {.program = dispatch.program,
                                            .bindings = inside.resolve(dispatch.bindings),
                                            .pushConstants = dispatch.pushConstants,
                                            .specialization = dispatch.specialization,
@@ -231,20 +243,21 @@ void PassContext::dispatch(const Dispatch& dispatch) {
 
 void PassContext::draw(const Draw& draw) {
   const Inside inside(*this);
-  const VkCommandBuffer commands = inside.recording(pass_);
-  if (inside.state.declaration->passes[pass_].kind != PassKind::raster) {
+  const CommandStream& commands = inside.recording(pass_);
+  if (inside.frame.declaration->passes[pass_].kind != PassKind::raster) {
     inside.access.fail(Misuse::undeclaredAccess, kNone, "only a raster pass can draw",
                        "add the pass with PassKind::raster");
   }
-  inside.state.backend.draw(commands, {.program = draw.program,
+  inside.frame.backend.draw(commands, {.program = draw.program,
                                        .bindings = inside.resolve(draw.bindings),
                                        .pushConstants = draw.pushConstants,
                                        .specialization = draw.specialization,
                                        .vertexCount = draw.vertexCount,
                                        .instanceCount = draw.instanceCount,
-                                       .renderArea = inside.state.planned->renderArea,
-                                       .colorFormats = inside.state.colorFormats,
-                                       .depthFormat = inside.state.depthFormat});
+                                       .renderArea = recorder_.planned_->renderArea,
+                                       .colorFormats = recorder_.colorFormats_,
+                                       .depthFormat = recorder_.depthFormat_,
+                                       .samples = recorder_.samples_});
 }
 
 void PassContext::copyImage(Image from, Image to) {
@@ -265,8 +278,8 @@ void PassContext::copyImage(Image from, Image to) {
     region.srcSubresource = {a.aspects, a.firstMip + i, a.firstLayer, a.layerCount};
     region.dstSubresource = {b.aspects, b.firstMip + i, b.firstLayer, b.layerCount};
     region.extent = {extent.width, extent.height, 1};
-    inside.state.backend.copyImage(inside.recording(pass_), inside.state.bound[source.resource].image,
-                                   inside.state.bound[target.resource].image, region);
+    inside.frame.backend.copyImage(inside.recording(pass_), inside.frame.bound[source.resource].image,
+                                   inside.frame.bound[target.resource].image, region);
   }
 }
 
@@ -287,8 +300,8 @@ void PassContext::copyImageToBuffer(Image from, Buffer to) {
   VkBufferImageCopy region{};
   region.imageSubresource = {aspects, source.range.firstMip, source.range.firstLayer, 1};
   region.imageExtent = {extent.width, extent.height, 1};
-  inside.state.backend.copyImageToBuffer(inside.recording(pass_), inside.state.bound[source.resource].image,
-                                         inside.state.bound[target.resource].buffer, region);
+  inside.frame.backend.copyImageToBuffer(inside.recording(pass_), inside.frame.bound[source.resource].image,
+                                         inside.frame.bound[target.resource].buffer, region);
 }
 
 void PassContext::copyBuffer(Buffer from, Buffer to, VkDeviceSize bytes) {
@@ -300,14 +313,14 @@ void PassContext::copyBuffer(Buffer from, Buffer to, VkDeviceSize bytes) {
                        std::to_string(bytes) + " bytes are copied, but a buffer is smaller",
                        "copy at most the smaller of the two sizes");
   }
-  inside.state.backend.copyBuffer(inside.recording(pass_), inside.state.bound[source.resource].buffer,
-                                  inside.state.bound[target.resource].buffer, bytes);
+  inside.frame.backend.copyBuffer(inside.recording(pass_), inside.frame.bound[source.resource].buffer,
+                                  inside.frame.bound[target.resource].buffer, bytes);
 }
 
 void PassContext::fillBuffer(Buffer to, uint32_t word) {
   const Inside inside(*this);
   const DeclaredAccess& target = inside.access.as(to, Usage::transferDestination);
-  inside.state.backend.fillBuffer(inside.recording(pass_), inside.state.bound[target.resource].buffer, word);
+  inside.frame.backend.fillBuffer(inside.recording(pass_), inside.frame.bound[target.resource].buffer, word);
 }
 
 void PassContext::clearImage(Image to, const VkClearColorValue& value) {
@@ -315,11 +328,11 @@ void PassContext::clearImage(Image to, const VkClearColorValue& value) {
   const DeclaredAccess& target = inside.access.as(to, Usage::transferDestination);
   const Subresources& r = target.range;
   const VkImageSubresourceRange range{r.aspects, r.firstMip, r.mipCount, r.firstLayer, r.layerCount};
-  const VkImage image = inside.state.bound[target.resource].image;
+  const VkImage image = inside.frame.bound[target.resource].image;
   if ((r.aspects & VK_IMAGE_ASPECT_COLOR_BIT) != 0) {
-    inside.state.backend.clearImage(inside.recording(pass_), image, value, range);
+    inside.frame.backend.clearImage(inside.recording(pass_), image, value, range);
   } else {
-    inside.state.backend.clearDepthImage(inside.recording(pass_), image, value.float32[0], range);
+    inside.frame.backend.clearDepthImage(inside.recording(pass_), image, value.float32[0], range);
   }
 }
 

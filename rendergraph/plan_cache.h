@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "rendergraph/graveyard.h"
 #include "rendergraph/plan.h"
 #include "rendergraph/plan_resources.h"
 
@@ -19,6 +20,9 @@ struct CachedPlan {
 
 class PlanCache {
  public:
+  /// Frames in flight may use the objects that the cache gives up.
+  explicit PlanCache(Graveyard& graveyard) : graveyard_(graveyard) {}
+
   /// The plan with this hash, moved to the front; null when there is none.
   CachedPlan* find(uint64_t hash) {
     const auto found = std::find_if(plans_.begin(), plans_.end(), [&](const auto& plan) { return plan->hash == hash; });
@@ -28,14 +32,20 @@ class PlanCache {
   }
   CachedPlan& add(uint64_t hash, Plan plan) {
     plans_.insert(plans_.begin(), std::make_unique<CachedPlan>(CachedPlan{hash, std::move(plan), nullptr}));
+    releaseResources(kPlans);
     if (plans_.size() > kPlans) plans_.pop_back();
     return *plans_.front();
   }
-  /// Frees the objects of all plans but the `keep` used last.
+  /// Gives up the objects of all plans but the `keep` used last.
   void releaseResources(std::size_t keep) {
-    for (std::size_t i = keep; i < plans_.size(); ++i) plans_[i]->resources.reset();
+    for (std::size_t i = keep; i < plans_.size(); ++i) {
+      if (plans_[i]->resources) graveyard_.add(std::move(plans_[i]->resources));
+    }
   }
-  void clear() { plans_.clear(); }
+  void clear() {
+    releaseResources(0);
+    plans_.clear();
+  }
 
   // A plan is some kilobytes; a host rarely alternates between more graphs than this.
   static constexpr std::size_t kPlans = 16;
@@ -43,6 +53,7 @@ class PlanCache {
   static constexpr std::size_t kWithResources = 3;
 
  private:
+  Graveyard& graveyard_;
   std::vector<std::unique_ptr<CachedPlan>> plans_;
 };
 

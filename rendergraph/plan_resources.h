@@ -1,8 +1,12 @@
-// The heaps, images and buffers of one plan. Heaps are shared among the plans of an executor, since only one of them
-// executes at a time: switching between graphs, or halving a resolution, costs no further memory.
+// The heaps, images, buffers and events of one plan.
+//
+// Device memory is shared among the plans of an executor, and by the frames in flight: the device executes one frame
+// after the other, so switching between graphs, or halving a resolution, costs no further memory. What the host reads
+// or writes while the device works on another frame exists once for each frame in flight (slot), as do events.
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "rendergraph/binding_table.h"
@@ -16,14 +20,16 @@ struct Declaration;
 
 struct PooledHeap {
   PlannedHeap planned;  ///< With its real size.
+  uint32_t slot = 0;    ///< Of host-visible memory.
   OwnedHeap heap;
 };
 
 class HeapPool {
  public:
   using Heaps = std::vector<std::shared_ptr<PooledHeap>>;
-  /// One heap for each planned one, at least as large; different ones for one call. Throws GraphError (device).
-  Heaps acquire(Backend& backend, const std::vector<PlannedHeap>& planned);
+  /// A heap at least as large, which is not in `taken`; added to it. Host-visible ones serve one slot only.
+  /// Throws GraphError (outOfMemory, device).
+  HeapId acquire(Backend& backend, const PlannedHeap& planned, uint32_t slot, Heaps& taken);
 
  private:
   std::vector<std::weak_ptr<PooledHeap>> heaps_;
@@ -31,20 +37,36 @@ class HeapPool {
 
 class PlanResources {
  public:
-  /// Throws GraphError (device) that names the resource; nothing remains then.
-  PlanResources(Backend& backend, HeapPool& pool, const Declaration& declaration, const Plan& plan);
-  /// Enters the plan's own resources.
-  void bind(const Plan& plan, BindingTable& table);
+  explicit PlanResources(uint32_t slots) : slots_(slots) {}
+
+  /// Makes what the slot needs and does not exist, and unsets its events. The device has finished the slot's frame
+  /// before. Throws GraphError that names the resource; what was made remains, for the next attempt.
+  void prepare(Backend& backend, HeapPool& pool, const Declaration& declaration, const Plan& plan, uint32_t slot);
+  /// Enters the plan's own resources. Precondition: prepare() for this slot.
+  void bind(const Plan& plan, uint32_t slot, BindingTable& table);
+  std::span<const OwnedEvent> events(uint32_t slot) const { return slots_[slot].events; }
 
  private:
   struct Object {
+    OwnedHeap dedicated;  // Instead of a pooled heap.
     OwnedImage image;
     OwnedBuffer buffer;
     ViewCache views;
     std::byte* address = nullptr;
   };
-  HeapPool::Heaps heaps_;
-  std::vector<Object> objects_;  // By placement. Destroyed before the heaps; views before images.
+  /// Objects by placement; those of the other kind of memory are empty. Destroyed before the heaps, views before images.
+  struct Objects {
+    HeapPool::Heaps taken;
+    std::vector<HeapId> heaps;  // By planned heap; 0: of the other kind, or dedicated.
+    std::vector<Object> objects;
+    std::vector<OwnedEvent> events;
+    bool complete = false;
+  };
+  void make(Backend& backend, HeapPool& pool, const Declaration& declaration, const Plan& plan, uint32_t slot,
+            bool hostVisible, Objects& into);
+
+  Objects device_;
+  std::vector<Objects> slots_;
 };
 
 }  // namespace rendergraph

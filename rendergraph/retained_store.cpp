@@ -1,6 +1,7 @@
 // Persistent content: made, zeroed, kept, swapped.
 #include "rendergraph/retained_store.h"
 
+#include <algorithm>
 #include <string>
 
 #include "rendergraph/declaration.h"
@@ -25,38 +26,58 @@ RetainedStore::Entry& RetainedStore::entryFor(const DeclaredResource& resource, 
   auto found = entries_.find(resource.key);
   if (found == entries_.end()) found = entries_.emplace(std::string(resource.key), Entry{}).first;
   Entry& entry = found->second;
-  const bool same = entry.isImage == resource.isImage && entry.imageDesc == resource.image &&
-                    entry.bufferDesc == resource.buffer && (retained.imageUsage & ~entry.imageUsage) == 0 &&
-                    (retained.bufferUsage & ~entry.bufferUsage) == 0;
+  const bool sameShape =
+      entry.isImage == resource.isImage && entry.imageDesc == resource.image && entry.bufferDesc == resource.buffer;
+  const bool same = sameShape && (retained.imageUsage & ~entry.imageUsage) == 0 &&
+                    (retained.bufferUsage & ~entry.bufferUsage) == 0 && (entry.concurrent || !retained.concurrent);
   if (!same) {
+    retire(entry);
     // Flags are kept, so that two graphs that use it differently settle on one object.
-    const bool sameShape =
-        entry.isImage == resource.isImage && entry.imageDesc == resource.image && entry.bufferDesc == resource.buffer;
-    const VkImageUsageFlags imageUsage = (sameShape ? entry.imageUsage : 0) | retained.imageUsage;
-    const VkBufferUsageFlags bufferUsage = (sameShape ? entry.bufferUsage : 0) | retained.bufferUsage;
     entry = Entry{.isImage = resource.isImage,
                   .imageDesc = resource.image,
                   .bufferDesc = resource.buffer,
-                  .imageUsage = imageUsage,
-                  .bufferUsage = bufferUsage,
+                  .imageUsage = (sameShape ? entry.imageUsage : 0) | retained.imageUsage,
+                  .bufferUsage = (sameShape ? entry.bufferUsage : 0) | retained.bufferUsage,
+                  .concurrent = (sameShape && entry.concurrent) || retained.concurrent,
                   .previous = 0,
                   .sides = {}};
   }
   return entry;
 }
 
+void RetainedStore::retire(Entry& entry) {
+  for (Side& side : entry.sides) {
+    if (side.heap) graveyard_.add(std::move(side));
+    side = Side{};
+  }
+}
+
 void RetainedStore::make(const DeclaredResource& resource, const Entry& entry, Side& side) {
-  const MemoryRequirements needs = entry.isImage ? backend_.requirements(entry.imageDesc, entry.imageUsage)
-                                                 : backend_.requirements(entry.bufferDesc, entry.bufferUsage);
-  const MemoryKind memory = entry.isImage ? MemoryKind::device : entry.bufferDesc.memory;
   Side made;
-  made.heap = OwnedHeap(backend_, backend_.createHeap(needs.size, needs.memoryTypeBits, memory, resource.name));
   if (entry.isImage) {
-    made.image =
-        OwnedImage(backend_, backend_.createImage(entry.imageDesc, entry.imageUsage, made.heap.get(), 0, resource.key));
+    const ImageRequest request{entry.imageDesc, entry.imageUsage, entry.concurrent, resource.key};
+    const MemoryRequirements needs = backend_.requirements(entry.imageDesc, entry.imageUsage);
+    if (needs.dedicated) {
+      const DedicatedImage both = backend_.createDedicatedImage(request);
+      made.heap = OwnedHeap(backend_, both.heap);
+      made.image = OwnedImage(backend_, both.image);
+    } else {
+      made.heap =
+          OwnedHeap(backend_, backend_.createHeap(needs.size, needs.memoryTypeBits, MemoryKind::device, resource.name));
+      made.image = OwnedImage(backend_, backend_.createImage(request, made.heap.get(), 0));
+    }
   } else {
-    made.buffer = OwnedBuffer(
-        backend_, backend_.createBuffer(entry.bufferDesc, entry.bufferUsage, made.heap.get(), 0, resource.key));
+    const BufferRequest request{entry.bufferDesc, entry.bufferUsage, entry.concurrent, resource.key};
+    const MemoryRequirements needs = backend_.requirements(entry.bufferDesc, entry.bufferUsage);
+    const MemoryKind memory = entry.bufferDesc.memory;
+    if (needs.dedicated) {
+      const DedicatedBuffer both = backend_.createDedicatedBuffer(request);
+      made.heap = OwnedHeap(backend_, both.heap);
+      made.buffer = OwnedBuffer(backend_, both.buffer);
+    } else {
+      made.heap = OwnedHeap(backend_, backend_.createHeap(needs.size, needs.memoryTypeBits, memory, resource.name));
+      made.buffer = OwnedBuffer(backend_, backend_.createBuffer(request, made.heap.get(), 0));
+    }
     if (memory != MemoryKind::device) made.address = static_cast<std::byte*>(backend_.hostAddress(made.heap.get()));
   }
   side = std::move(made);
@@ -86,7 +107,8 @@ void RetainedStore::prepare(const Declaration& declaration, const Plan& plan, Bi
   }
 }
 
-void RetainedStore::barrier(VkCommandBuffer commands, const Current& current, VkImageLayout from, VkImageLayout to) {
+void RetainedStore::barrier(const CommandStream& commands, const Current& current, VkImageLayout from,
+                            VkImageLayout to) {
   // Rare (first frame, change of plan), so the widest scopes are good enough.
   VkMemoryBarrier2 memory{};
   memory.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
@@ -126,7 +148,7 @@ void RetainedStore::barrier(VkCommandBuffer commands, const Current& current, Vk
   backend_.barrier(commands, dependency);
 }
 
-void RetainedStore::recordZero(VkCommandBuffer commands, const Current& current) {
+void RetainedStore::recordZero(const CommandStream& commands, const Current& current) {
   const VkImage image = current.side->image.get();
   if (!current.entry->isImage) {
     backend_.fillBuffer(commands, current.side->buffer.get(), 0);
@@ -144,7 +166,13 @@ void RetainedStore::recordZero(VkCommandBuffer commands, const Current& current)
   barrier(commands, current, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, current.restLayout);
 }
 
-void RetainedStore::recordStart(VkCommandBuffer commands) {
+bool RetainedStore::needsStart() const {
+  return std::ranges::any_of(current_, [](const Current& current) {
+    return !current.side->valid || (current.entry->isImage && current.side->layout != current.restLayout);
+  });
+}
+
+void RetainedStore::recordStart(const CommandStream& commands) {
   for (const Current& current : current_) {
     if (!current.side->valid) {
       recordZero(commands, current);
@@ -168,8 +196,15 @@ void RetainedStore::invalidate() {
   current_.clear();
 }
 
+void RetainedStore::invalidateAll() {
+  for (auto& [key, entry] : entries_) {
+    for (Side& side : entry.sides) side.valid = false;
+  }
+}
+
 void RetainedStore::clear() {
   current_.clear();
+  for (auto& [key, entry] : entries_) retire(entry);
   entries_.clear();
 }
 

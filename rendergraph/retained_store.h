@@ -1,4 +1,5 @@
-// What an executor keeps across frames: persistent images and buffers, and the two sides of histories.
+// What an executor keeps across frames: persistent images and buffers, and the two sides of histories. They exist once,
+// however many frames are in flight: what one frame leaves, the next one finds.
 #pragma once
 
 #include <array>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "rendergraph/binding_table.h"
+#include "rendergraph/graveyard.h"
 #include "rendergraph/owned.h"
 #include "rendergraph/plan.h"
 #include "rendergraph/view_cache.h"
@@ -19,19 +21,25 @@ struct DeclaredResource;
 
 class RetainedStore {
  public:
-  explicit RetainedStore(Backend& backend) : backend_(backend) {}
+  /// Frames in flight may use what is replaced.
+  RetainedStore(Backend& backend, Graveyard& graveyard) : backend_(backend), graveyard_(graveyard) {}
 
   /// Makes what the plan needs and does not exist, or has another description or too few usage flags; enters all of it
-  /// into the table. Throws GraphError (device) that names the resource.
+  /// into the table. Throws GraphError (outOfMemory, device) that names the resource.
   void prepare(const Declaration& declaration, const Plan& plan, BindingTable& table);
 
-  /// Records the zeroing of what is new, and the change of layout where another plan left a different one.
-  void recordStart(VkCommandBuffer commands);
+  /// Whether the frame begins with commands of its own, on the first queue: the zeroing of what is new, and the change
+  /// of layout where another plan left a different one.
+  bool needsStart() const;
+  /// Records them. What precedes them on the device has finished.
+  void recordStart(const CommandStream& commands);
 
   /// The frame was submitted: new content is valid, and histories whose next side it wrote have changed places.
   void commit();
   /// The frame broke off after a part of it was submitted: content and layouts are unknown, so they are zeroed anew.
   void invalidate();
+  /// The same for all that is kept: nobody knows which frames were carried out.
+  void invalidateAll();
 
   void clear();
 
@@ -51,6 +59,7 @@ class RetainedStore {
     BufferDesc bufferDesc;
     VkImageUsageFlags imageUsage = 0;
     VkBufferUsageFlags bufferUsage = 0;
+    bool concurrent = false;
     uint32_t previous = 0;      // Side that is History::previous.
     std::array<Side, 2> sides;  // A persistent resource has only the first.
   };
@@ -64,10 +73,12 @@ class RetainedStore {
 
   Entry& entryFor(const DeclaredResource& resource, const RetainedResource& retained);
   void make(const DeclaredResource& resource, const Entry& entry, Side& side);
-  void recordZero(VkCommandBuffer commands, const Current& current);
-  void barrier(VkCommandBuffer commands, const Current& current, VkImageLayout from, VkImageLayout to);
+  void retire(Entry& entry);
+  void recordZero(const CommandStream& commands, const Current& current);
+  void barrier(const CommandStream& commands, const Current& current, VkImageLayout from, VkImageLayout to);
 
   Backend& backend_;
+  Graveyard& graveyard_;
   std::map<std::string, Entry, std::less<>> entries_;
   std::vector<Current> current_;
 };

@@ -163,12 +163,13 @@ DofInputs Renderer::State::sceneInputs(const Shot& shot) {
            .sampler = binding.sampler,
            .buffer = isImage ? VK_NULL_HANDLE : context.buffer(binding.buffer)});
     }
-    renderer->draw(context.commandBuffer(), {.emit = call.emit,
-                                             .view = call.view,
-                                             .extent = call.extent,
-                                             .colorFormats = context.colorFormats(),
-                                             .depthFormat = context.depthFormat(),
-                                             .emitBindings = bindings});
+    renderer->draw(context.commands(), {.emit = call.emit,
+                                        .view = call.view,
+                                        .extent = call.extent,
+                                        .colorFormats = context.colorFormats(),
+                                        .depthFormat = context.depthFormat(),
+                                        .samples = context.samples(),
+                                        .emitBindings = bindings});
   };
   inputs.scene = &sceneDraw;
   return inputs;

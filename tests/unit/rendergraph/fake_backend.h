@@ -1,10 +1,11 @@
-// A backend without a device: writes down what it is asked for, counts living objects, and fails on demand.
+// A backend without a device: writes down what it is asked for, counts living objects, simulates the order in which
+// submissions finish, notes what no backend should be asked for, and fails on demand.
 #pragma once
 
-#include <chrono>
 #include <map>
+#include <memory>
+#include <set>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "rendergraph/backend.h"
@@ -12,114 +13,59 @@
 
 class FakeBackend : public rendergraph::Backend {
  public:
-  std::vector<std::string> log;  ///< Commands and submissions in order.
-  std::vector<VkImageMemoryBarrier2> imageBarriers;
-  std::map<uint64_t, std::string> living;  ///< Objects that were made and not destroyed, by id.
-  int failAfter = -1;                      ///< Creations that still succeed; -1: all.
-  bool failSubmit = false;
-  int submitMs = 0;  ///< What a submission takes, at least.
+  using CommandStream = rendergraph::CommandStream;
+
+  std::vector<std::string> log;                      ///< Submissions with their commands, in order; "submit" ends one.
+  std::vector<VkImageMemoryBarrier2> imageBarriers;  ///< Of all that was submitted.
+  std::vector<VkMemoryBarrier2> memoryBarriers;      ///< The same.
+  std::vector<VkRenderingAttachmentInfo> attachments;  ///< Colour attachments of all renderings, the same.
+  std::vector<rendergraph::ResolvedBinding> bindings;  ///< Of the latest dispatch or draw.
+  std::map<uint64_t, std::string> living;              ///< Objects that were made and not destroyed, by id.
+  std::map<uint64_t, uint64_t> viewed;                 ///< View to image.
+  std::set<uint64_t> concurrent;                       ///< Images and buffers with that sharing mode.
+  std::vector<std::string> mistakes;                   ///< What no backend should be asked for.
   uint32_t creations = 0;
 
-  ~FakeBackend() override = default;
+  std::vector<rendergraph::QueueFacts> queueFacts{{}};
+  bool dedicatedImages = false;  ///< The device wants memory of their own for images.
+  bool silent = false;           ///< Writes nothing down, and allocates nothing for commands and submissions.
+  int submitMs = 0;              ///< What a submission takes, at least.
 
-  rendergraph::MemoryRequirements requirements(const rendergraph::ImageDesc& desc,
-                                               VkImageUsageFlags usage) const override {
-    return nominal_.requirements(desc, usage);
-  }
-  rendergraph::MemoryRequirements requirements(const rendergraph::BufferDesc& desc,
-                                               VkBufferUsageFlags usage) const override {
-    return nominal_.requirements(desc, usage);
-  }
+  int failAfter = -1;  ///< Creations that still succeed; -1: all.
+  /// Calls that can fail (creations, beginning and ending commands, submissions, waits) and still succeed; then one
+  /// fails. -1: all succeed.
+  int failCallAfter = -1;
+  bool failSubmit = false;
+  bool failWait = false;
+  rendergraph::Misuse failWith = rendergraph::Misuse::device;
 
-  rendergraph::HeapId createHeap(const VkDeviceSize size, uint32_t, rendergraph::MemoryKind,
-                                 std::string_view) override {
-    const uint64_t id = create("heap");
-    memory_[id].resize(size);
-    return id;
-  }
-  void destroyHeap(rendergraph::HeapId heap) override { destroy(heap); }
-  void* hostAddress(rendergraph::HeapId heap) override { return memory_[heap].data(); }
-  VkImage createImage(const rendergraph::ImageDesc&, VkImageUsageFlags, rendergraph::HeapId heap, VkDeviceSize,
-                      std::string_view name) override {
-    return as<VkImage>(createOn(heap, "image " + std::string(name)));
-  }
-  void destroyImage(VkImage image) override { destroy(idOf(image)); }
-  VkBuffer createBuffer(const rendergraph::BufferDesc&, VkBufferUsageFlags, rendergraph::HeapId heap, VkDeviceSize,
-                        std::string_view name) override {
-    return as<VkBuffer>(createOn(heap, "buffer " + std::string(name)));
-  }
-  void destroyBuffer(VkBuffer buffer) override { destroy(idOf(buffer)); }
-  VkImageView createView(const rendergraph::ViewDesc& desc, std::string_view name) override {
-    const uint64_t view = create("view " + std::string(name));
-    viewed[view] = idOf(desc.image);
-    return as<VkImageView>(view);
-  }
-  void destroyView(VkImageView view) override { destroy(idOf(view)); }
+  /// One vkQueueSubmit2.
+  struct Submitted {
+    uint32_t queue = 0;
+    VkSemaphore signal = VK_NULL_HANDLE;
+    uint64_t value = 0;
+    struct Wait {
+      VkSemaphore semaphore;
+      uint64_t value;
+      VkPipelineStageFlags2 stages;
+    };
+    std::vector<Wait> waits;
+    std::vector<std::string> lines;
+    std::vector<uint64_t> buffers;
+    std::set<uint64_t> uses;  ///< Objects.
+    bool finished = false;
+  };
+  std::vector<Submitted> submissions;
 
-  VkCommandBuffer beginCommands() override {
-    log.push_back("begin");
-    return as<VkCommandBuffer>(++commandBuffers_);
-  }
-  void submitAndWait(VkCommandBuffer) override {
-    log.push_back("submit");
-    if (submitMs > 0) std::this_thread::sleep_for(std::chrono::milliseconds(submitMs));
-    if (failSubmit) fail("device lost");
-  }
-  void barrier(VkCommandBuffer, const VkDependencyInfo& dependency) override {
-    log.push_back("barrier");
-    for (uint32_t i = 0; i < dependency.imageMemoryBarrierCount; ++i) {
-      imageBarriers.push_back(dependency.pImageMemoryBarriers[i]);
-    }
-  }
-  void beginRendering(VkCommandBuffer, const VkRenderingInfo& info) override {
-    std::string text = "rendering " + std::to_string(info.renderArea.extent.width) + "x" +
-                       std::to_string(info.renderArea.extent.height) + " layers " + std::to_string(info.layerCount);
-    for (uint32_t i = 0; i < info.colorAttachmentCount; ++i) {
-      text += " clear " + std::to_string(static_cast<int>(info.pColorAttachments[i].clearValue.color.float32[0]));
-    }
-    log.push_back(text);
-  }
-  void endRendering(VkCommandBuffer) override { log.push_back("end rendering"); }
-  void beginLabel(VkCommandBuffer, std::string_view name) override { log.push_back("label " + std::string(name)); }
-  void endLabel(VkCommandBuffer) override {}
-  void dispatch(VkCommandBuffer, const rendergraph::ResolvedDispatch& dispatch) override {
-    log.push_back("dispatch " + std::string(dispatch.program.name));
-    bindings.assign(dispatch.bindings.begin(), dispatch.bindings.end());
-  }
-  void draw(VkCommandBuffer, const rendergraph::ResolvedDraw& draw) override {
-    log.push_back("draw " + std::string(draw.program.name));
-    bindings.assign(draw.bindings.begin(), draw.bindings.end());
-  }
-  void copyImage(VkCommandBuffer, VkImage, VkImage, const VkImageCopy& region) override {
-    log.push_back("copy image mip " + std::to_string(region.srcSubresource.mipLevel));
-  }
-  void copyImageToBuffer(VkCommandBuffer, VkImage, VkBuffer, const VkBufferImageCopy&) override {
-    log.push_back("copy image to buffer");
-  }
-  void copyBuffer(VkCommandBuffer, VkBuffer, VkBuffer, VkDeviceSize bytes) override {
-    log.push_back("copy buffer " + std::to_string(bytes));
-  }
-  void fillBuffer(VkCommandBuffer, VkBuffer, uint32_t word) override { log.push_back("fill " + std::to_string(word)); }
-  void clearImage(VkCommandBuffer, VkImage, const VkClearColorValue&, const VkImageSubresourceRange&) override {
-    log.push_back("clear");
-  }
-  void clearDepthImage(VkCommandBuffer, VkImage, float, const VkImageSubresourceRange&) override {
-    log.push_back("clear depth");
-  }
-  uint32_t maxTimestamps() const override { return 6; }
-  void writeTimestamp(VkCommandBuffer, VkPipelineStageFlags2, uint32_t slot) override {
-    log.push_back("timestamp " + std::to_string(slot));
-  }
-  void readTimestamps(std::span<double> nanoseconds) override {
-    for (std::size_t i = 0; i < nanoseconds.size(); ++i) nanoseconds[i] = 1e6 * static_cast<double>(i * i);
-  }
+  FakeBackend();
+  ~FakeBackend() override;
 
+  /// The device gets everything done.
+  void finishAll();
   /// How often a line is in the log.
-  std::size_t count(std::string_view line) const {
-    std::size_t n = 0;
-    for (const std::string& entry : log) n += entry == line;
-    return n;
-  }
+  std::size_t count(std::string_view line) const;
+  /// Living objects whose description begins so.
+  std::size_t countLiving(std::string_view beginning) const;
   template <class T>
   static T as(uint64_t id) {
     return reinterpret_cast<T>(id);
@@ -129,45 +75,95 @@ class FakeBackend : public rendergraph::Backend {
     return reinterpret_cast<uint64_t>(object);
   }
 
-  std::vector<rendergraph::ResolvedBinding> bindings;  ///< Of the latest dispatch or draw.
-  std::map<uint64_t, uint64_t> viewed;                 ///< View to image.
-  std::vector<std::string> mistakes;                   ///< What no backend should be asked for.
+  // DeviceFacts
+  std::span<const rendergraph::QueueFacts> queues() const override { return queueFacts; }
+  rendergraph::MemoryRequirements requirements(const rendergraph::ImageDesc& desc,
+                                               VkImageUsageFlags usage) const override;
+  rendergraph::MemoryRequirements requirements(const rendergraph::BufferDesc& desc,
+                                               VkBufferUsageFlags usage) const override;
+
+  // Objects
+  rendergraph::HeapId createHeap(VkDeviceSize size, uint32_t typeBits, rendergraph::MemoryKind memory,
+                                 std::string_view name) override;
+  void destroyHeap(rendergraph::HeapId heap) override { destroy(heap); }
+  void* hostAddress(rendergraph::HeapId heap) override { return memory_[heap].data(); }
+  VkImage createImage(const rendergraph::ImageRequest& request, rendergraph::HeapId heap, VkDeviceSize) override;
+  rendergraph::DedicatedImage createDedicatedImage(const rendergraph::ImageRequest& request) override;
+  void destroyImage(VkImage image) override { destroy(idOf(image)); }
+  VkBuffer createBuffer(const rendergraph::BufferRequest& request, rendergraph::HeapId heap, VkDeviceSize) override;
+  rendergraph::DedicatedBuffer createDedicatedBuffer(const rendergraph::BufferRequest& request) override;
+  void destroyBuffer(VkBuffer buffer) override { destroy(idOf(buffer)); }
+  VkImageView createView(const rendergraph::ViewDesc& desc, std::string_view name) override;
+  void destroyView(VkImageView view) override { destroy(idOf(view)); }
+  VkEvent createEvent(std::string_view name) override;
+  void destroyEvent(VkEvent event) override { destroy(idOf(event)); }
+  void resetEvent(VkEvent event) override;
+
+  // Recorders and submission
+  rendergraph::RecorderId createRecorder(uint32_t queue, std::string_view name) override;
+  void destroyRecorder(rendergraph::RecorderId recorder) override;
+  void resetRecorder(rendergraph::RecorderId recorder) override;
+  VkSemaphore createTimeline(std::string_view name) override;
+  void destroyTimeline(VkSemaphore timeline) override { destroy(idOf(timeline)); }
+  uint64_t timelineValue(VkSemaphore timeline) override;
+  void waitTimelines(const VkSemaphoreWaitInfo& wait) override;
+  void submit(uint32_t queue, const VkSubmitInfo2& submission) override;
+
+  // Recording
+  CommandStream beginCommands(rendergraph::RecorderId recorder) override;
+  void endCommands(const CommandStream& commands) override;
+  void barrier(const CommandStream& commands, const VkDependencyInfo& dependency) override;
+  void setEvent(const CommandStream& commands, VkEvent event, const VkDependencyInfo& dependency) override;
+  void waitEvent(const CommandStream& commands, VkEvent event, const VkDependencyInfo& dependency) override;
+  void beginRendering(const CommandStream& commands, const VkRenderingInfo& info) override;
+  void endRendering(const CommandStream& commands) override;
+  void beginLabel(const CommandStream& commands, std::string_view name) override;
+  void endLabel(const CommandStream&) override {}
+  void dispatch(const CommandStream& commands, const rendergraph::ResolvedDispatch& dispatch) override;
+  void draw(const CommandStream& commands, const rendergraph::ResolvedDraw& draw) override;
+  void copyImage(const CommandStream& commands, VkImage, VkImage, const VkImageCopy& region) override;
+  void copyImageToBuffer(const CommandStream& commands, VkImage, VkBuffer, const VkBufferImageCopy&) override;
+  void copyBuffer(const CommandStream& commands, VkBuffer, VkBuffer, VkDeviceSize bytes) override;
+  void fillBuffer(const CommandStream& commands, VkBuffer, uint32_t word) override;
+  void clearImage(const CommandStream& commands, VkImage, const VkClearColorValue&,
+                  const VkImageSubresourceRange&) override;
+  void clearDepthImage(const CommandStream& commands, VkImage, float, const VkImageSubresourceRange&) override;
+  void writeTimestamp(const CommandStream& commands, VkPipelineStageFlags2, VkQueryPool, uint32_t slot) override;
+
+  // Time: slot i says i² ms.
+  bool hasTimestamps(uint32_t) const override { return true; }
+  double nanosecondsPerTick() const override { return 1e6; }
+  VkQueryPool createTimestamps(uint32_t, std::string_view name) override;
+  void destroyTimestamps(VkQueryPool pool) override { destroy(idOf(pool)); }
+  void resetTimestamps(VkQueryPool, uint32_t) override {}
+  void readTimestamps(VkQueryPool, uint32_t first, std::span<uint64_t> ticks) override;
 
  private:
-  [[noreturn]] static void fail(const char* reason) {
-    throw rendergraph::GraphError({{.misuse = rendergraph::Misuse::device,
-                                    .pass = {},
-                                    .resource = {},
-                                    .reason = reason,
-                                    .remedy = {},
-                                    .where = {}}});
-  }
-  uint64_t create(const std::string& what) {
-    if (failAfter == 0) fail("out of memory");
-    if (failAfter > 0) --failAfter;
-    ++creations;
-    living[++lastId_] = what;
-    return lastId_;
-  }
-  uint64_t createOn(rendergraph::HeapId heap, const std::string& what) {
-    if (living.count(heap) == 0) mistakes.push_back(what + " on a dead heap");
-    const uint64_t id = create(what);
-    parents_[id] = heap;
-    return id;
-  }
-  void destroy(uint64_t id) {
-    if (living.erase(id) == 0) mistakes.push_back("destroyed twice, or never made");
-    for (const auto& [child, parent] : parents_) {
-      if (parent == id && living.count(child) != 0) mistakes.push_back("heap destroyed before " + living[child]);
-    }
-    for (const auto& [view, image] : viewed) {
-      if (image == id && living.count(view) != 0) mistakes.push_back("image destroyed before its view");
-    }
-  }
+  struct Commands;
+  struct Recorder;
+  struct Event;
+
+  Commands& of(const CommandStream& commands);
+  void note(const CommandStream& commands, std::string line, std::initializer_list<uint64_t> uses = {});
+  void noteBindings(const CommandStream& commands, std::string line,
+                    std::span<const rendergraph::ResolvedBinding> bound);
+  void execute(Commands& commands, Submitted& submitted);
+  void runEvents(const Commands& commands);
+  void finish(VkSemaphore semaphore, uint64_t value);
+  bool isInUse(uint64_t id) const;
+  void mayFail();
+  [[noreturn]] void fail(const char* reason) const;
+  uint64_t create(const std::string& what);
+  uint64_t createOn(rendergraph::HeapId heap, const std::string& what, bool isConcurrent);
+  void destroy(uint64_t id);
 
   rendergraph::NominalDevice nominal_;
   std::map<uint64_t, std::vector<std::byte>> memory_;
   std::map<uint64_t, uint64_t> parents_;
+  std::map<uint64_t, std::unique_ptr<Recorder>> recorders_;
+  std::map<uint64_t, Event> events_;
+  std::map<uint64_t, uint64_t> promised_;  // Timeline to the highest value that a submission will signal.
+  std::map<uint64_t, uint64_t> reached_;
+  std::unique_ptr<Commands> hosts_;  // Stands for all command buffers of the host.
   uint64_t lastId_ = 1000;
-  uint64_t commandBuffers_ = 0;
 };

@@ -1,0 +1,18 @@
+// Views on demand.
+#include "rendergraph/frame_context.h"
+
+#include "rendergraph/naming.h"
+#include "rendergraph/view_cache.h"
+
+namespace rendergraph {
+
+VkImageView FrameContext::viewOf(uint32_t resource, const Subresources& range, VkImageViewType type) {
+  const DeclaredResource& declared = declaration->resources[resource];
+  const Bound& object = bound[resource];
+  const ViewDesc desc{.image = object.image, .format = declared.image.format, .type = type, .range = range};
+  // One lock for all images: a lookup takes less time than the call that needs the view.
+  const std::scoped_lock lock(views_);
+  return namingResource(declared.name, [&] { return object.views->get(backend, desc, declared.name); });
+}
+
+}  // namespace rendergraph

@@ -1,0 +1,54 @@
+// What belongs to one of the frames in flight; used again when its frame has finished.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "rendergraph/binding_table.h"
+#include "rendergraph/capture.h"
+#include "rendergraph/frame_context.h"
+#include "rendergraph/owned.h"
+#include "rendergraph/view_cache.h"
+
+namespace rendergraph {
+
+/// What a frame exported, so that it can be looked up when the graph is gone.
+struct ExportTable {
+  uint32_t serial = 0;  // Of the declaration; 0: none.
+  BindingTable bound;
+  std::vector<uint8_t> exported;
+  std::vector<VkDeviceSize> sizes;  // Of buffers, bytes.
+  void take(const Declaration& declaration, const BindingTable& table);
+};
+
+/// One vkQueueSubmit2 of a frame.
+struct SentSubmission {
+  uint32_t submission = 0;  // Of the plan.
+  uint32_t queue = 0;
+  uint64_t value = 0;                    // That the queue's timeline reaches with it.
+  uint32_t firstStep = 0, lastStep = 0;  // Inclusive.
+  bool hasSteps = false;
+  double sentMs = 0.0;  // Since the frame's beginning.
+};
+
+struct FrameSlot {
+  enum class State : uint8_t {
+    idle,
+    submitted,
+    recorded,  // Into a command buffer of the host, who knows when it has finished.
+  };
+  State state = State::idle;
+  uint32_t index = 0;
+  uint64_t frame = 0;  // Number of the latest one.
+  std::vector<SentSubmission> sent;
+  std::vector<OwnedRecorder> recorders;  // By lane, then by queue. None for pairs that never occurred.
+  OwnedTimestamps timestamps;
+  uint32_t timestampSteps = 0;  // Steps that have room in it.
+  std::vector<uint32_t> stamped;
+  ViewCache importedViews;  // A host may destroy an imported image after any frame, so these live for one.
+  ExportTable exports;
+  Capture capture;
+  Clock::time_point start;
+};
+
+}  // namespace rendergraph

@@ -1,0 +1,221 @@
+// One step: events, barriers, rendering, the pass's own recording.
+#include "rendergraph/step_recorder.h"
+
+#include <iterator>
+
+#include "rendergraph/pass.h"
+
+namespace rendergraph {
+
+namespace {
+
+/// Formats without a mean: their samples are resolved to the first one.
+bool isInteger(VkFormat format) {
+  switch (format) {
+    case VK_FORMAT_R8_UINT:
+    case VK_FORMAT_R8_SINT:
+    case VK_FORMAT_R8G8_UINT:
+    case VK_FORMAT_R8G8_SINT:
+    case VK_FORMAT_R8G8B8A8_UINT:
+    case VK_FORMAT_R8G8B8A8_SINT:
+    case VK_FORMAT_A2B10G10R10_UINT_PACK32:
+    case VK_FORMAT_A2R10G10B10_UINT_PACK32:
+    case VK_FORMAT_R16_UINT:
+    case VK_FORMAT_R16_SINT:
+    case VK_FORMAT_R16G16_UINT:
+    case VK_FORMAT_R16G16_SINT:
+    case VK_FORMAT_R16G16B16A16_UINT:
+    case VK_FORMAT_R16G16B16A16_SINT:
+    case VK_FORMAT_R32_UINT:
+    case VK_FORMAT_R32_SINT:
+    case VK_FORMAT_R32G32_UINT:
+    case VK_FORMAT_R32G32_SINT:
+    case VK_FORMAT_R32G32B32A32_UINT:
+    case VK_FORMAT_R32G32B32A32_SINT:
+      return true;
+    default:
+      return false;
+  }
+}
+
+/// Every device can resolve depth to its first sample; means are optional.
+VkResolveModeFlagBits resolveModeOf(VkFormat format) {
+  const bool color = (aspectsOf(format) & VK_IMAGE_ASPECT_COLOR_BIT) != 0;
+  return color && !isInteger(format) ? VK_RESOLVE_MODE_AVERAGE_BIT : VK_RESOLVE_MODE_SAMPLE_ZERO_BIT;
+}
+
+VkImageViewType attachmentView(const Subresources& range) {
+  return range.layerCount > 1 ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
+}
+
+/// Families of a transfer of ownership; between queues of one family nothing is transferred.
+template <class Barrier>
+void setFamilies(std::span<const QueueFacts> queues, uint32_t from, uint32_t to, Barrier& barrier) {
+  barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+  if (from == kSameQueue || to == kSameQueue || queues[from].family == queues[to].family) return;
+  barrier.srcQueueFamilyIndex = queues[from].family;
+  barrier.dstQueueFamilyIndex = queues[to].family;
+}
+
+}  // namespace
+
+VkDependencyInfo StepRecorder::dependencyOf(const BarrierBatch& batch) {
+  imageBarriers_.clear();
+  bufferBarriers_.clear();
+  const std::span<const QueueFacts> queues = frame_->backend.queues();
+  for (const ImageBarrier& barrier : frame_->plan->imagesOf(batch)) {
+    VkImageMemoryBarrier2& image = imageBarriers_.emplace_back();
+    image.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2;
+    image.srcStageMask = barrier.from.stages;
+    image.srcAccessMask = barrier.from.access;
+    image.dstStageMask = barrier.to.stages;
+    image.dstAccessMask = barrier.to.access;
+    image.oldLayout = barrier.oldLayout;
+    image.newLayout = barrier.newLayout;
+    setFamilies(queues, barrier.fromQueue, barrier.toQueue, image);
+    image.image = frame_->bound[barrier.resource].image;
+    image.subresourceRange = {barrier.range.aspects, barrier.range.firstMip, barrier.range.mipCount,
+                              barrier.range.firstLayer, barrier.range.layerCount};
+  }
+  for (const BufferBarrier& barrier : frame_->plan->buffersOf(batch)) {
+    VkBufferMemoryBarrier2& buffer = bufferBarriers_.emplace_back();
+    buffer.sType = VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2;
+    buffer.srcStageMask = barrier.from.stages;
+    buffer.srcAccessMask = barrier.from.access;
+    buffer.dstStageMask = barrier.to.stages;
+    buffer.dstAccessMask = barrier.to.access;
+    setFamilies(queues, barrier.fromQueue, barrier.toQueue, buffer);
+    buffer.buffer = frame_->bound[barrier.resource].buffer;
+    buffer.size = VK_WHOLE_SIZE;
+  }
+  VkDependencyInfo dependency{};
+  dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+  dependency.imageMemoryBarrierCount = static_cast<uint32_t>(imageBarriers_.size());
+  dependency.pImageMemoryBarriers = imageBarriers_.data();
+  dependency.bufferMemoryBarrierCount = static_cast<uint32_t>(bufferBarriers_.size());
+  dependency.pBufferMemoryBarriers = bufferBarriers_.data();
+  return dependency;
+}
+
+void StepRecorder::recordBarriers(const BarrierBatch& batch) {
+  if (!batch.empty()) frame_->backend.barrier(commands_, dependencyOf(batch));
+}
+
+void StepRecorder::recordWaits(const PlannedPass& planned) {
+  for (uint32_t i = planned.waits.first; i < planned.waits.first + planned.waits.count; ++i) {
+    frame_->backend.waitEvent(commands_, frame_->events[i].get(), dependencyOf(frame_->plan->events[i].barriers));
+  }
+  recordBarriers(planned.before);
+}
+
+void StepRecorder::recordSets(const PlannedPass& planned) {
+  for (const uint32_t event : frame_->plan->setsOf(planned)) {
+    frame_->backend.setEvent(commands_, frame_->events[event].get(),
+                             dependencyOf(frame_->plan->events[event].barriers));
+  }
+}
+
+void StepRecorder::stamp(uint32_t step, uint32_t end) {
+  if (!frame_->isStamped(step)) return;
+  // ALL_COMMANDS at both ends: everything before has finished, so passes that overlap are not counted twice.
+  frame_->backend.writeTimestamp(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, frame_->timestamps, 2 * step + end);
+}
+
+VkRenderingAttachmentInfo StepRecorder::attachmentInfo(const PlannedAttachment& attachment, const VkClearValue& clear) {
+  const VkFormat format = frame_->declaration->resources[attachment.resource].image.format;
+  VkRenderingAttachmentInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
+  info.imageView = frame_->viewOf(attachment.resource, attachment.range, attachmentView(attachment.range));
+  info.imageLayout = attachment.layout;
+  info.loadOp = attachment.load;
+  info.storeOp = attachment.store;
+  info.clearValue = clear;
+  if (attachment.resolve == PlannedAttachment::kNoResolve) return info;
+  const PlannedAttachment& target = frame_->plan->attachments[attachment.resolve];
+  info.resolveMode = resolveModeOf(format);
+  info.resolveImageView = frame_->viewOf(target.resource, target.range, attachmentView(target.range));
+  info.resolveImageLayout = target.layout;
+  return info;
+}
+
+void StepRecorder::beginRendering(const PlannedPass& planned) {
+  const Declaration& declaration = *frame_->declaration;
+  VkClearValue depthClear{};
+  colorClears_.clear();
+  for (const DeclaredAccess& access : declaration.accessesOfPass(planned.pass)) {
+    if (access.role == AttachmentRole::color) colorClears_.push_back(access.clear);
+    if (access.role == AttachmentRole::depth) depthClear = access.clear;
+  }
+  colors_.clear();
+  colorFormats_.clear();
+  depthFormat_ = VK_FORMAT_UNDEFINED;
+  samples_ = VK_SAMPLE_COUNT_1_BIT;
+  const auto note = [&](const PlannedAttachment& attachment) {
+    const ImageDesc& desc = declaration.resources[attachment.resource].image;
+    samples_ = desc.samples;
+    return desc.format;
+  };
+  for (const PlannedAttachment& attachment : frame_->plan->colorsOf(planned)) {
+    colorFormats_.push_back(note(attachment));
+    colors_.push_back(attachmentInfo(attachment, colorClears_[colors_.size()]));
+  }
+  VkRenderingInfo rendering{};
+  rendering.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
+  rendering.renderArea = {{0, 0}, planned.renderArea};
+  rendering.layerCount = planned.renderLayers;
+  rendering.colorAttachmentCount = static_cast<uint32_t>(colors_.size());
+  rendering.pColorAttachments = colors_.data();
+  VkRenderingAttachmentInfo depth;
+  for (const PlannedAttachment& attachment : frame_->plan->depthOf(planned)) {
+    depthFormat_ = note(attachment);
+    depth = attachmentInfo(attachment, depthClear);
+    rendering.pDepthAttachment = &depth;
+  }
+  frame_->backend.beginRendering(commands_, rendering);
+}
+
+void StepRecorder::runRecording(uint32_t step) {
+  const PlannedPass& planned = frame_->plan->passes[step];
+  const DeclaredPass& pass = frame_->declared(planned);
+  if (pass.recorder == nullptr) return;
+  planned_ = &planned;
+  PassContext context(*this, planned.pass);
+  pass.recorder(pass.recording, context);
+}
+
+void StepRecorder::noteRecording(uint32_t step, double startMs) {
+  CapturedPass& pass = frame_->capture->passes[step];
+  pass.recordStartMs = startMs;
+  pass.recordMs = millisecondsSince(frame_->start) - startMs;
+}
+
+void StepRecorder::recordStep(uint32_t step) {
+  const double startMs = millisecondsSince(frame_->start);
+  const Plan& plan = *frame_->plan;
+  const PlannedPass& planned = plan.passes[step];
+  const bool raster = frame_->declared(planned).kind == PassKind::raster;
+  const bool isContinued = step + 1 < plan.passes.size() && plan.passes[step + 1].continuesRendering;
+  frame_->backend.beginLabel(commands_, frame_->declared(planned).name);
+  recordWaits(planned);
+  stamp(step, 0);
+  if (raster && !planned.continuesRendering) beginRendering(planned);
+  runRecording(step);
+  if (raster && !isContinued) frame_->backend.endRendering(commands_);
+  stamp(step, 1);
+  recordSets(planned);
+  frame_->backend.endLabel(commands_);
+  noteRecording(step, startMs);
+}
+
+void StepRecorder::recordHostWait(uint32_t step) {
+  recordWaits(frame_->plan->passes[step]);
+}
+
+void StepRecorder::runHostPass(uint32_t step) {
+  const double startMs = millisecondsSince(frame_->start);
+  commands_ = {};
+  runRecording(step);
+  noteRecording(step, startMs);
+}
+
+}  // namespace rendergraph
