@@ -109,8 +109,9 @@ void writeLinks(std::ostream& out, const Capture& capture) {
 void writeJson(std::ostream& out, const CaptureSeries& series) {
   const Capture& capture = series.structure();
   out << "{\n  \"timing\": " << jsonString(capture.timing) << ",\n  \"frames\": " << series.frames()
-      << ",\n  \"frameGpuMs\": " << series.frameGpuMs() << ",\n  \"frameWallMs\": " << series.frameWallMs()
-      << ",\n  \"plansReused\": " << series.plansReused() << ",\n  \"barrierBatches\": " << capture.barrierBatches
+      << ",\n  \"frameGpuMs\": " << series.frameGpuMs() << ",\n  \"passSumMs\": " << series.passSumMs()
+      << ",\n  \"frameWallMs\": " << series.frameWallMs() << ",\n  \"plansReused\": " << series.plansReused()
+      << ",\n  \"barrierBatches\": " << capture.barrierBatches
       << ",\n  \"barriersAtEnd\": {\"images\": " << capture.imageBarriersAtEnd
       << ", \"buffers\": " << capture.bufferBarriersAtEnd << "},\n  \"memory\": ";
   writeMemory(out, capture);

@@ -58,6 +58,16 @@ Spread CaptureSeries::frameWallMs() const {
   return spreadOver(frames_, [](const Capture& frame) { return frame.frameWallMs; });
 }
 
+Spread CaptureSeries::passSumMs() const {
+  return spreadOver(frames_, [](const Capture& frame) {
+    double sum = -1.0;
+    for (const CapturedPass& pass : frame.passes) {
+      if (pass.gpuMs >= 0.0) sum = std::max(sum, 0.0) + pass.gpuMs;
+    }
+    return sum;
+  });
+}
+
 Spread CaptureSeries::gpuMs(uint32_t step) const {
   return spreadOver(frames_, [=](const Capture& frame) { return frame.passes[step].gpuMs; });
 }

@@ -37,6 +37,9 @@ class CaptureSeries {
   // Over the frames; not measured when there are none.
   Spread frameGpuMs() const;
   Spread frameWallMs() const;
+  /// Sum of the passes' device times, of frames in which one was measured. Near frameGpuMs() with isolated timing; with
+  /// inline timing, less by what lies between passes.
+  Spread passSumMs() const;
   Spread gpuMs(uint32_t step) const;
   Spread recordMs(uint32_t step) const;
   /// Frames that found their plan compiled.

@@ -20,6 +20,7 @@
 #include "passes/pinhole/pinhole.h"
 #include "samples/host/read_back.h"
 #include "samples/host/shot_scene.h"
+#include "samples/host/texels.h"
 
 namespace host {
 namespace {
@@ -90,6 +91,20 @@ uint32_t replaceNonFinite(engine::FloatImage& picture) {
     ++replaced;
   }
   return replaced;
+}
+
+/// Takes home what the taps have copied in the latest execution.
+void keepTapped(const Graph& graph, const rendergraph::Executor& executor, const rendergraph::ImageTaps& taps,
+                Tapped& tapped) {
+  tapped.pictures.resize(taps.images().size());
+  for (std::size_t i = 0; i < taps.images().size(); ++i) {
+    const auto& image = taps.images()[i];
+    if (!image.buffer) continue;
+    tapped.pictures[i] = pictureOf(executor.mapped(image.buffer), image.format, image.aspect, image.extent);
+  }
+  for (const auto& choice : rendergraph::tappableImages(graph)) {
+    if (std::ranges::find(tapped.choices, choice) == tapped.choices.end()) tapped.choices.push_back(choice);
+  }
 }
 
 std::optional<engine::Environment> loadEnvironment(const Shot& shot) {
@@ -214,11 +229,18 @@ Rendering Renderer::State::run(const passes::Technique& technique, const DofInpu
   Rendering rendering;
   const uint32_t frames = technique.frameCount(options.parameters, inputs);
   Graph graph;
+  rendergraph::ImageTaps taps;
+  for (const auto& tap : options.taps) taps.add(tap);
+  if (options.tapped != nullptr) graph.setTaps(&taps);
   for (uint32_t frame = 0; frame < frames; ++frame) {
     graph.reset();
     const bool isLast = frame + 1 == frames;
     const auto back = declareReadBacks(graph, declareFrame(graph, frame), isLast, options.wantDepth);
+    graph.finishTaps();
     executor.execute(graph, options.execute);
+    ++rendering.executions;
+    if (options.observe) options.observe(executor.capture());
+    if (options.tapped != nullptr) keepTapped(graph, executor, taps, *options.tapped);
     rendering.gpuMs += std::max(executor.capture().frameGpuMs, 0.0);
     rendering.wallMs += executor.capture().frameWallMs;
     for (const Buffer& buffer : back.statistics) {

@@ -12,6 +12,7 @@
 #include "passes/registry.h"
 #include "rendergraph/capture.h"
 #include "rendergraph/executor.h"
+#include "rendergraph/image_tap.h"
 #include "samples/host/shot.h"
 #include "shaders/shared/statistics.h"
 
@@ -29,7 +30,14 @@ struct Rendering {
   rendergraph::Capture capture;  ///< Of the last execution.
   double gpuMs = 0.0;            ///< Device time of all executions.
   double wallMs = 0.0;           ///< Host time of all executions. The first render() also compiles shaders.
+  uint32_t executions = 0;       ///< Of the graph; progressive techniques take several for one picture.
   double estimatedError = -1.0;  ///< RMS standard error of a progressive technique; negative when it has none.
+};
+
+/// What RenderOptions::taps asked for.
+struct Tapped {
+  std::vector<engine::FloatImage> pictures;     ///< One for each tap; empty where nothing matched.
+  std::vector<rendergraph::TapChoice> choices;  ///< Every image that could have been tapped.
 };
 
 /// Done executions and their number; called between executions.
@@ -41,6 +49,12 @@ struct RenderOptions {
   rendergraph::ExecuteOptions execute;
   bool wantDepth = false;
   Progress progress;
+  /// Images of passes to be copied into `tapped`, which may be null without taps and lives as long as the rendering.
+  /// A progressive technique's come from the last execution that has the pass. Formats that are no picture throw.
+  std::vector<rendergraph::ImageTap> taps;
+  Tapped* tapped = nullptr;
+  /// Called with the capture of each execution, if set.
+  std::function<void(const rendergraph::Capture&)> observe;
 };
 
 /// One scene on one device; keeps its GPU copy, pipelines and plans between renders. The device outlives it.

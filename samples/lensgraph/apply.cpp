@@ -1,10 +1,8 @@
 // lensgraph apply: a technique on a picture and its depth, wherever they come from.
-#include <nlohmann/json.hpp>
-
 #include "engine/error.h"
 #include "engine/image_io.h"
-#include "samples/lensgraph/capture_file.h"
 #include "samples/lensgraph/commands.h"
+#include "samples/lensgraph/looks.h"
 #include "samples/lensgraph/output.h"
 #include "samples/lensgraph/progress.h"
 #include "samples/lensgraph/session.h"
@@ -64,9 +62,12 @@ int runApply(const ApplyArguments& arguments, const GlobalArguments& global) {
     failUsage("--fovy", "must be above 0 and below 180 degrees", "");
   }
   const engine::Lens lens = lensOf(arguments);
-  checkOutput(arguments.output, "--output", kPictureExtensions);
-  if (arguments.capture) checkOutput(*arguments.capture, "--capture");
-  if (arguments.exposureEv) warnUnusedExposure(arguments.output);
+  Looks looks(arguments.look);
+  if (!arguments.output.empty()) checkOutput(arguments.output, "--output", kPictureExtensions);
+  std::vector<OutputFile> files = looks.outputs();
+  files.push_back({arguments.output, "--output"});
+  requireDistinct(files);
+  if (arguments.exposureEv && !arguments.output.empty()) warnUnusedExposure(arguments.output);
   const auto color = engine::readImage(arguments.color);
   const auto depth = engine::readDepth(arguments.depth);
   if (color.width != depth.width || color.height != depth.height) {
@@ -87,17 +88,19 @@ int runApply(const ApplyArguments& arguments, const GlobalArguments& global) {
                               .execute = {},
                               .wantDepth = false,
                               .progress = [&](uint32_t done, uint32_t total) { bar.update(done, total); }};
-  options.execute.timing = arguments.capture ? rendergraph::Timing::isolated : rendergraph::Timing::inlineTimestamps;
-  const auto rendering = renderer.apply(color, depth, arguments.fovyDeg, lens, options);
+  const auto& device = session.device().description();
+  const auto rendering = looks.render(device, options, [&](const host::RenderOptions& now) {
+    return renderer.apply(color, depth, arguments.fovyDeg, lens, now);
+  });
   bar.wipe();
+  if (looks.listsOnly()) {
+    looks.printList();
+    return session.finish();
+  }
 
   engine::writeImage(arguments.output, rendering.color, {.exposureEv = arguments.exposureEv.value_or(0.0)});
-  if (arguments.capture) {
-    const CaptureInput input{arguments.color.string(), {arguments.color, arguments.depth}, &lens};
-    writeTextFile(*arguments.capture,
-                  captureJson(session.device().description(), input, choice, rendering).dump(2) + "\n");
-  }
-  printSummary(session.device().description(), choice, rendering);
+  looks.write(device, {arguments.color.string(), {arguments.color, arguments.depth}, &lens}, choice, rendering);
+  printSummary(device, choice, rendering);
   return session.finish();
 }
 

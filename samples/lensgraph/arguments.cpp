@@ -73,6 +73,31 @@ void addTechnique(CLI::App& app, TechniqueArguments& technique, bool required) {
       ->type_name("FILE.json");
 }
 
+void addLooks(CLI::App& app, LookArguments& look) {
+  app.add_option("--capture", look.capture, "Write times, memory, device, parameters (see capture-view, capture-diff)")
+      ->type_name("FILE.json");
+  app.add_option("--trace", look.trace, "Write a timeline that Perfetto opens")->type_name("FILE.json");
+  app.add_option("--capture-frames", look.frames, "Frames to measure after a first one that is not (default 5)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000));
+  app.add_option("--timing", look.timing,
+                 "inline: timestamps in the frame; isolated: each pass by itself, right on every device. Default: "
+                 "isolated on CPU devices, inline on others")
+      ->type_name("MODE")
+      ->check(CLI::IsMember({"inline", "isolated"}));
+  app.add_option("--dump-image", look.dumps,
+                 "Write an image inside the graph, as it is after the pass; may be repeated. list: say which there are")
+      ->type_name("PASS/RESOURCE[MIP,LAYER]=FILE.exr|png")
+      ->allow_extra_args(false);
+}
+
+/// `output` may be left out only where nothing but a list is asked for.
+void requireOutput(const std::string& subcommand, const std::filesystem::path& output, const LookArguments& look) {
+  if (output.empty() && look.dumps != std::vector<std::string>{"list"}) {
+    failUsage(subcommand, "--output is required", "see lensgraph " + subcommand + " --help");
+  }
+}
+
 using Action = std::function<int(const GlobalArguments&)>;
 
 Action addRender(CLI::App& app) {
@@ -82,10 +107,13 @@ Action addRender(CLI::App& app) {
   addTechnique(*sub, a->technique, false);
   addSize(*sub, a->size);
   addExposure(*sub, a->exposureEv);
-  sub->add_option("--capture", a->capture, "Write times, memory, device, parameters")->type_name("FILE.json");
+  addLooks(*sub, a->look);
   sub->add_option("--depth-out", a->depthOut, "Write view depth in metres")->type_name("FILE.exr");
-  sub->add_option("-o,--output", a->output, "Picture to write: .exr, .png or .hdr")->type_name("OUT")->required();
-  return [a](const GlobalArguments& global) { return runRender(*a, global); };
+  sub->add_option("-o,--output", a->output, "Picture to write: .exr, .png or .hdr")->type_name("OUT");
+  return [a](const GlobalArguments& global) {
+    requireOutput("render", a->output, a->look);
+    return runRender(*a, global);
+  };
 }
 
 Action addApply(CLI::App& app) {
@@ -103,9 +131,12 @@ Action addApply(CLI::App& app) {
   sub->add_option("--focus", a->focusDistance, "Focus distance in metres, or infinity")->type_name("D")->required();
   addTechnique(*sub, a->technique, true);
   addExposure(*sub, a->exposureEv);
-  sub->add_option("--capture", a->capture, "Write times, memory, device, parameters")->type_name("FILE.json");
-  sub->add_option("-o,--output", a->output, "Picture to write: .exr, .png or .hdr")->type_name("OUT")->required();
-  return [a](const GlobalArguments& global) { return runApply(*a, global); };
+  addLooks(*sub, a->look);
+  sub->add_option("-o,--output", a->output, "Picture to write: .exr, .png or .hdr")->type_name("OUT");
+  return [a](const GlobalArguments& global) {
+    requireOutput("apply", a->output, a->look);
+    return runApply(*a, global);
+  };
 }
 
 Action addTechniques(CLI::App& app) {
@@ -141,6 +172,23 @@ Action addGraph(CLI::App& app) {
     if (!a->dot && !a->json) failUsage("graph", "nothing to write", "give --dot FILE or --json FILE");
     return runGraph(*a, global);
   };
+}
+
+Action addCaptureView(CLI::App& app) {
+  auto* sub = app.add_subcommand("capture-view", "Write a capture as a page: graph, times, lifetimes, memory");
+  auto a = std::make_shared<CaptureViewArguments>();
+  sub->add_option("capture", a->capture, "Capture (render --capture)")->type_name("FILE.json")->required();
+  sub->add_option("-o,--output", a->output, "Page to write; - is standard output")->type_name("FILE.html")->required();
+  return [a](const GlobalArguments&) { return runCaptureView(*a); };
+}
+
+Action addCaptureDiff(CLI::App& app) {
+  auto* sub = app.add_subcommand("capture-diff", "Tell what changed from one capture to another");
+  auto a = std::make_shared<CaptureDiffArguments>();
+  sub->add_option("before", a->before, "Capture")->type_name("A.json")->required();
+  sub->add_option("after", a->after, "Capture")->type_name("B.json")->required();
+  sub->add_flag("--json", a->json, "As JSON");
+  return [a](const GlobalArguments&) { return runCaptureDiff(*a); };
 }
 
 Action addDemo(CLI::App& app) {
@@ -220,10 +268,15 @@ int run(int argc, char** argv) {
   app.add_flag("--validate", global.validation, "Turn on validation and synchronization validation");
   app.add_flag("-v,--verbose", global.verbose, "Say more on stderr");
 
-  std::vector<std::pair<std::string, Action>> actions = {
-      {"render", addRender(app)},   {"apply", addApply(app)}, {"techniques", addTechniques(app)},
-      {"compare", addCompare(app)}, {"graph", addGraph(app)}, {"demo", addDemo(app)},
-      {"devices", addDevices(app)}};
+  std::vector<std::pair<std::string, Action>> actions = {{"render", addRender(app)},
+                                                         {"apply", addApply(app)},
+                                                         {"techniques", addTechniques(app)},
+                                                         {"compare", addCompare(app)},
+                                                         {"graph", addGraph(app)},
+                                                         {"demo", addDemo(app)},
+                                                         {"capture-view", addCaptureView(app)},
+                                                         {"capture-diff", addCaptureDiff(app)},
+                                                         {"devices", addDevices(app)}};
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -10,7 +10,6 @@
 
 #include "engine/lens.h"
 #include "generated/version.h"
-#include "rendergraph/capture_series.h"
 
 namespace cli {
 
@@ -29,6 +28,11 @@ json toJson(const engine::DeviceDescription& device) {
   return {{"name", device.name}, {"type", device.type}, {"driver", device.driver}};
 }
 
+json toJson(const rendergraph::Spread& spread) {
+  if (spread.median < 0.0) return {};
+  return {{"median", spread.median}, {"min", spread.min}, {"max", spread.max}};
+}
+
 std::string hashOfFiles(const std::vector<std::filesystem::path>& files) {
   uint64_t hash = 0xcbf29ce484222325u;
   for (const auto& file : files) {
@@ -43,16 +47,19 @@ std::string hashOfFiles(const std::vector<std::filesystem::path>& files) {
 }
 
 json captureJson(const engine::DeviceDescription& device, const CaptureInput& input,
-                 const host::TechniqueChoice& choice, const host::Rendering& rendering) {
+                 const host::TechniqueChoice& choice, const host::Rendering& rendering,
+                 const Measurement& measurement) {
   json parameters = json::object();
   for (const auto& info : host::requireTechnique(choice.name, "", "").parameters) {
     const auto given = choice.parameters.find(info.name);
     parameters[std::string(info.name)] = toJson(given == choice.parameters.end() ? info.defaultValue : given->second);
   }
   std::stringstream graph;
-  rendergraph::writeJson(graph, rendering.capture);
+  rendergraph::writeJson(graph, measurement.series);
   const auto& statistics = rendering.statistics;
   return {
+      {"format", kCaptureFormat},
+      {"formatVersion", kCaptureVersion},
       {"program", {{"name", "lensgraph"}, {"version", kVersion}, {"commit", kCommit}}},
       {"device", toJson(device)},
       {"shot", input.source},
@@ -61,8 +68,10 @@ json captureJson(const engine::DeviceDescription& device, const CaptureInput& in
       {"lens",
        {{"apertureRadius", engine::apertureRadius(*input.lens)}, {"focusDistance", toJson(input.lens->focusDistance)}}},
       {"technique", {{"name", choice.name}, {"parameters", std::move(parameters)}}},
-      {"gpuMs", rendering.gpuMs},
-      {"wallMs", rendering.wallMs},
+      {"executions", rendering.executions},
+      {"gpuMs", toJson(rendergraph::spreadOf(measurement.gpuMs))},
+      {"uninterrupted", toJson(rendergraph::spreadOf(measurement.uninterruptedMs))},
+      {"wallMs", toJson(rendergraph::spreadOf(measurement.wallMs))},
       {"estimatedError", rendering.estimatedError < 0.0 ? json() : toJson(rendering.estimatedError)},
       {"statistics",
        {{"replacedTexels", statistics.replacedTexels},

@@ -9,6 +9,7 @@
 
 #include "engine/device.h"
 #include "passes/parameters.h"
+#include "rendergraph/capture_series.h"
 #include "samples/host/renderer.h"
 #include "samples/host/technique_choice.h"
 
@@ -19,9 +20,21 @@ nlohmann::json toJson(const engine::DeviceDescription& device);
 /// JSON has no infinity: it becomes "infinity", "-infinity" or "nan".
 nlohmann::json toJson(double value);
 
+/// {"median", "min", "max"}, or null when nothing was measured.
+nlohmann::json toJson(const rendergraph::Spread& spread);
+
 /// FNV-1a over the bytes of the files in this order, as 16 hexadecimal digits. A glTF file's external buffers
 /// and images are not followed. Unreadable files count as empty.
 std::string hashOfFiles(const std::vector<std::filesystem::path>& files);
+
+/// Several frames of one picture.
+struct Measurement {
+  rendergraph::CaptureSeries series;  ///< The last execution of each frame.
+  std::vector<double> gpuMs, wallMs;  ///< By frame, over all its executions.
+  /// By frame, of isolated timing: device time of the same picture in one piece, with passes free to overlap.
+  std::vector<double> uninterruptedMs;
+  std::vector<rendergraph::Capture> executions;  ///< All of them, in order.
+};
 
 struct CaptureInput {
   std::string source;                        ///< The shot file, or the colour picture.
@@ -29,7 +42,14 @@ struct CaptureInput {
   const engine::Lens* lens = nullptr;
 };
 
+/// What the program's capture files say that they are, in their fields "format" and "formatVersion".
+inline constexpr const char* kCaptureFormat = "lensgraph capture";
+inline constexpr int kCaptureVersion = 1;
+
+/// "graph" is of the last execution of each measured frame; "executions" says how many a frame took, "gpuMs" and
+/// "wallMs" are of all of them. Precondition: something was measured.
 nlohmann::json captureJson(const engine::DeviceDescription& device, const CaptureInput& input,
-                           const host::TechniqueChoice& choice, const host::Rendering& rendering);
+                           const host::TechniqueChoice& choice, const host::Rendering& rendering,
+                           const Measurement& measurement);
 
 }  // namespace cli

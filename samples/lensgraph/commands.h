@@ -28,14 +28,23 @@ struct TechniqueArguments {
   std::optional<std::filesystem::path> config;
 };
 
+/// What to look at beside the picture: times, memory, images inside the graph.
+struct LookArguments {
+  std::optional<std::filesystem::path> capture, trace;
+  std::optional<int> frames;                ///< Measured after one warm-up frame; kDefaultFrames when absent.
+  std::optional<std::string> timing;        ///< "inline" or "isolated"; by the device's type when absent.
+  std::vector<std::string> dumps;           ///< "PASS/RESOURCE[mip,layer]=FILE", or "list" alone.
+  static constexpr int kDefaultFrames = 5;  ///< Few enough to wait for; enough for a median and its spread.
+};
+
 struct RenderArguments {
   std::filesystem::path shot;
   TechniqueArguments technique;
   std::optional<PictureSize> size;
   std::optional<double> exposureEv;  ///< PNG only.
-  std::optional<std::filesystem::path> capture;
+  LookArguments look;
   std::optional<std::filesystem::path> depthOut;
-  std::filesystem::path output;
+  std::filesystem::path output;  ///< Empty: none asked for.
 };
 int runRender(const RenderArguments& arguments, const GlobalArguments& global);
 
@@ -47,8 +56,8 @@ struct ApplyArguments {
   double focusDistance = 0.0;  ///< m; infinity is legal.
   TechniqueArguments technique;
   std::optional<double> exposureEv;
-  std::optional<std::filesystem::path> capture;
-  std::filesystem::path output;
+  LookArguments look;
+  std::filesystem::path output;  ///< Empty: none asked for.
 };
 int runApply(const ApplyArguments& arguments, const GlobalArguments& global);
 
@@ -74,6 +83,17 @@ struct DemoArguments {
   int referenceSamples = 256;                   ///< Lens samples of the reference.
 };
 int runDemo(const DemoArguments& arguments, const GlobalArguments& global);
+
+struct CaptureViewArguments {
+  std::filesystem::path capture, output;  ///< "-" as output is stdout.
+};
+int runCaptureView(const CaptureViewArguments& arguments);
+
+struct CaptureDiffArguments {
+  std::filesystem::path before, after;
+  bool json = false;
+};
+int runCaptureDiff(const CaptureDiffArguments& arguments);
 
 int runTechniques(bool json);
 int runDevices(bool json);

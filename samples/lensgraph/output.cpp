@@ -65,6 +65,18 @@ void checkOutput(const path& file, std::string_view option, std::span<const std:
   ::unlink(probe.c_str());
 }
 
+void requireDistinct(std::span<const OutputFile> files) {
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (files[i].file.empty() || files[i].file.lexically_normal() != files[j].file.lexically_normal()) continue;
+      throw engine::Error({.file = files[i].file.string(),
+                           .field = files[j].option,
+                           .reason = "is the same file as " + files[i].option,
+                           .remedy = "choose another"});
+    }
+  }
+}
+
 void warnUnusedExposure(const path& output) {
   if (lowerExtension(output) != ".png") {
     spdlog::warn("{}: --exposure changes only .png; this file keeps the scene's light", output.string());

@@ -14,9 +14,19 @@ namespace cli {
 void checkOutput(const std::filesystem::path& file, std::string_view option,
                  std::span<const std::string_view> extensions = {});
 
+struct OutputFile {
+  std::filesystem::path file;
+  std::string option;  ///< That names it.
+};
+
+/// Throws engine::Error (bad input) when two of them are the same file. Empty paths are no file.
+void requireDistinct(std::span<const OutputFile> files);
+
 /// Extensions of pictures and of depth, as engine/image_io writes them.
 inline constexpr std::string_view kPictureExtensions[] = {".exr", ".png", ".hdr"};
 inline constexpr std::string_view kDepthExtensions[] = {".exr"};
+/// Of images inside the graph: exact values, or a look at them.
+inline constexpr std::string_view kDumpExtensions[] = {".exr", ".png"};
 
 /// Warns when an exposure is asked for although the format keeps scene light.
 void warnUnusedExposure(const std::filesystem::path& output);

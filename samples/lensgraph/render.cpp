@@ -1,10 +1,8 @@
 // lensgraph render: a shot file into a picture.
-#include <nlohmann/json.hpp>
-
-#include "engine/error.h"
 #include "engine/image_io.h"
 #include "samples/lensgraph/capture_file.h"
 #include "samples/lensgraph/commands.h"
+#include "samples/lensgraph/looks.h"
 #include "samples/lensgraph/output.h"
 #include "samples/lensgraph/progress.h"
 #include "samples/lensgraph/session.h"
@@ -12,27 +10,23 @@
 namespace cli {
 namespace {
 
-void checkOutputs(const RenderArguments& arguments) {
-  checkOutput(arguments.output, "--output", kPictureExtensions);
-  if (arguments.capture) checkOutput(*arguments.capture, "--capture");
+void checkOutputs(const RenderArguments& arguments, const Looks& looks) {
+  if (!arguments.output.empty()) checkOutput(arguments.output, "--output", kPictureExtensions);
   if (arguments.depthOut) checkOutput(*arguments.depthOut, "--depth-out", kDepthExtensions);
-  if (arguments.depthOut && *arguments.depthOut == arguments.output) {
-    throw engine::Error({.file = arguments.output.string(),
-                         .field = "--depth-out",
-                         .reason = "is the same file as --output",
-                         .remedy = "choose another"});
-  }
-  if (arguments.exposureEv) warnUnusedExposure(arguments.output);
+  std::vector<OutputFile> files = looks.outputs();
+  files.push_back({arguments.output, "--output"});
+  if (arguments.depthOut) files.push_back({*arguments.depthOut, "--depth-out"});
+  requireDistinct(files);
+  if (arguments.exposureEv && !arguments.output.empty()) warnUnusedExposure(arguments.output);
 }
 
 void writeOutputs(const RenderArguments& arguments, const host::Shot& shot, const host::TechniqueChoice& choice,
-                  const engine::DeviceDescription& device, const host::Rendering& rendering) {
+                  const engine::DeviceDescription& device, const host::Rendering& rendering, const Looks& looks) {
   engine::writeImage(arguments.output, rendering.color, {.exposureEv = arguments.exposureEv.value_or(0.0)});
   if (arguments.depthOut) engine::writeImage(*arguments.depthOut, rendering.depth);
-  if (!arguments.capture) return;
   CaptureInput input{arguments.shot.string(), {arguments.shot}, &shot.lens};
   for (const auto& part : shot.scene) input.files.push_back(part.path);
-  writeTextFile(*arguments.capture, captureJson(device, input, choice, rendering).dump(2) + "\n");
+  looks.write(device, input, choice, rendering);
 }
 
 }  // namespace
@@ -44,7 +38,8 @@ int runRender(const RenderArguments& arguments, const GlobalArguments& global) {
     shot.height = arguments.size->height;
   }
   const auto choice = chooseTechnique({shot.technique, shot.parameters}, arguments.technique);
-  checkOutputs(arguments);
+  Looks looks(arguments.look);
+  checkOutputs(arguments, looks);
 
   Session session(global);
   std::vector<std::string> warnings;
@@ -57,13 +52,17 @@ int runRender(const RenderArguments& arguments, const GlobalArguments& global) {
                               .execute = {},
                               .wantDepth = arguments.depthOut.has_value(),
                               .progress = [&](uint32_t done, uint32_t total) { bar.update(done, total); }};
-  // Isolated passes are timed rightly on every device; a picture alone need not pay for that.
-  options.execute.timing = arguments.capture ? rendergraph::Timing::isolated : rendergraph::Timing::inlineTimestamps;
-  const host::Rendering rendering = renderer.render(shot, options);
+  const auto& device = session.device().description();
+  const host::Rendering rendering =
+      looks.render(device, options, [&](const host::RenderOptions& now) { return renderer.render(shot, now); });
   bar.wipe();
+  if (looks.listsOnly()) {
+    looks.printList();
+    return session.finish();
+  }
 
-  writeOutputs(arguments, shot, choice, session.device().description(), rendering);
-  printSummary(session.device().description(), choice, rendering);
+  writeOutputs(arguments, shot, choice, device, rendering, looks);
+  printSummary(device, choice, rendering);
   return session.finish();
 }
 

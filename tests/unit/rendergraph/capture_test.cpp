@@ -139,6 +139,7 @@ TEST(CaptureSeries, MediansWithTheirSpread) {
   EXPECT_EQ(series.frameGpuMs(), (Spread{4.0, 2.0, 100.0}));
   EXPECT_EQ(series.gpuMs(0), (Spread{2.0, 1.0, 50.0}));
   EXPECT_EQ(series.gpuMs(1), Spread{}) << "never measured";
+  EXPECT_EQ(series.passSumMs(), (Spread{2.0, 1.0, 50.0}));
   EXPECT_EQ(series.recordMs(0), (Spread{0.5, 0.5, 0.5}));
   series.add(frame(6.0));
   EXPECT_DOUBLE_EQ(series.frameGpuMs().median, 5.0) << "the mean of 4 and 6";
