@@ -92,7 +92,7 @@ host::Rendering Looks::measure(host::RenderOptions options, const RenderOnce& re
   const bool isolated = options.execute.timing == rendergraph::Timing::isolated;
   host::RenderOptions inOnePiece = options;
   inOnePiece.execute.timing = rendergraph::Timing::inlineTimestamps;
-  renderOnce(inOnePiece);
+  renderOnce(options);
   measurement_.emplace();
   if (arguments_.trace) {
     options.observe = [this](const auto& capture) { measurement_->executions.push_back(capture); };
