@@ -37,13 +37,11 @@ void writeFile(const std::filesystem::path& path, const std::string& text) {
   std::filesystem::rename(temporary, path);
 }
 
-ordered_json measureAll() {
+ordered_json measureAll(const std::string& command) {
   return {{"what",
            "rendergraph: CPU time per pass (least and median of the repetitions), packing over 200 seeds of 100 "
            "passes, batches against bytes, techniques on the nominal device"},
-          {"command",
-           "rendergraph_bench --json docs/results/rendergraph.json --benchmark_repetitions=9 "
-           "--benchmark_min_time=0.05"},
+          {"command", command},
           {"device", "2 CPU cores, shared with other work"},
           {"speed", bench::runSpeed()},
           {"aliasing", bench::aliasingQuality()},
@@ -67,7 +65,8 @@ int check(const std::filesystem::path& readme, const std::filesystem::path& resu
   return status;
 }
 
-int run(const std::vector<std::string>& arguments) {
+/// `command`: as it was typed.
+int run(const std::vector<std::string>& arguments, const std::string& command) {
   if (arguments.size() == 2 && arguments[0] == "--table") {
     std::fputs(bench::markdown(ordered_json::parse(readFile(arguments[1]))).c_str(), stdout);
     return 0;
@@ -75,7 +74,7 @@ int run(const std::vector<std::string>& arguments) {
   if (arguments.size() == 3 && arguments[0] == "--check") return check(arguments[1], arguments[2]);
   bench::registerSpeed();
   if (arguments.size() == 2 && arguments[0] == "--json") {
-    writeFile(arguments[1], measureAll().dump(1) + "\n");
+    writeFile(arguments[1], measureAll(command).dump(1) + "\n");
     return 0;
   }
   if (!arguments.empty()) {
@@ -90,9 +89,11 @@ int run(const std::vector<std::string>& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  benchmark::Initialize(&argc, argv);
+  std::string command = "rendergraph_bench";
+  for (int i = 1; i < argc; ++i) command += std::string(" ") + argv[i];
+  benchmark::Initialize(&argc, argv);  // Takes its own options away.
   try {
-    return run({argv + 1, argv + argc});
+    return run({argv + 1, argv + argc}, command);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "rendergraph_bench: %s\n", error.what());
     return 2;

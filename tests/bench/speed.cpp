@@ -8,6 +8,7 @@
 
 #include "allocations.h"
 #include "corpus.h"
+#include "rendergraph/aliasing.h"
 #include "rendergraph/compiler.h"
 #include "rendergraph/executor.h"
 #include "silent_backend.h"
@@ -70,6 +71,34 @@ void declareAndCompile(benchmark::State& state, corpus::Workload workload, uint3
   });
 }
 
+std::vector<AliasItem> itemsOf(corpus::Workload workload, uint32_t seed, uint32_t passes) {
+  Graph graph;
+  corpus::declare(graph, corpus::makeShape(workload, seed, passes));
+  std::vector<AliasItem> items;
+  for (const Placement& placement :
+       compile(graph.declaration(), {.aliasing = Aliasing::none}, NominalDevice()).placements) {
+    items.push_back({.size = placement.size,
+                     .alignment = VkDeviceSize{1} << 16,
+                     .first = placement.firstStep,
+                     .last = placement.lastStep});
+  }
+  return items;
+}
+
+/// Packing alone; "pass" is a resource here, of which every pass makes one. Sixteen graphs in turn, so that the branch
+/// predictor does not learn one by heart.
+template <Packing (*pack)(std::span<const AliasItem>)>
+void packOnly(benchmark::State& state, corpus::Workload workload, uint32_t passes) {
+  const Frames frames(workload, passes);
+  std::vector<std::vector<AliasItem>> graphs;
+  for (uint32_t seed = 0; seed < 16; ++seed) graphs.push_back(itemsOf(workload, seed, passes));
+  uint32_t turn = 0;
+  measure(state, frames, [&] {
+    const Packing packing = pack(graphs[turn++ % graphs.size()]);
+    benchmark::DoNotOptimize(&packing);
+  });
+}
+
 /// Declared anew, found in the plan cache, and all its barriers recorded; the passes record nothing themselves.
 void unchangedFrame(benchmark::State& state, corpus::Workload workload, uint32_t passes) {
   Frames frames(workload, passes);
@@ -87,6 +116,8 @@ constexpr Step kSteps[] = {
     {"declare", declareOnly, 10000},
     {"declare+hash", declareAndHash, 10000},
     {"unchanged frame", unchangedFrame, 1000},  // The backend's books grow with the square of the objects.
+    {"pack, fast", packOnly<packFast>, 10000},
+    {"pack, best", packOnly<packBest>, 10000},
     {"compile, no aliasing", declareAndCompile<Aliasing::none>, 10000},
     {"compile, fast", declareAndCompile<Aliasing::fast>, 10000},
     {"compile, best", declareAndCompile<Aliasing::best>, 10000},

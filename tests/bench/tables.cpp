@@ -36,8 +36,8 @@ std::string speedCell(const ordered_json& speed, const std::string& step, const 
 std::string speedTable(const ordered_json& speed) {
   std::string text = line({"CPU ns per pass at 10 / 100 / 1000 / 10 000 passes", "chain2", "dag16", "wide8"});
   text += "|---|---|---|---|\n";
-  for (const char* step :
-       {"declare", "declare+hash", "unchanged frame", "compile, no aliasing", "compile, fast", "compile, best"}) {
+  for (const char* step : {"declare", "declare+hash", "unchanged frame", "compile, no aliasing", "compile, fast",
+                           "compile, best", "pack, fast", "pack, best"}) {
     const bool compiles = std::string_view(step).starts_with("compile");
     const auto cell = [&](const char* workload) { return speedCell(speed, step, workload, "leastNsPerPass", "%.0f"); };
     text += line({(compiles ? "declare + " : "") + std::string(step), cell("chain2"), cell("dag16"), cell("wide8")});
