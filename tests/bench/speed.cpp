@@ -8,10 +8,10 @@
 
 #include "allocations.h"
 #include "corpus.h"
+#include "fake_backend.h"
 #include "rendergraph/aliasing.h"
 #include "rendergraph/compiler.h"
 #include "rendergraph/executor.h"
-#include "silent_backend.h"
 
 namespace bench {
 
@@ -102,7 +102,8 @@ void packOnly(benchmark::State& state, corpus::Workload workload, uint32_t passe
 /// Declared anew, found in the plan cache, and all its barriers recorded; the passes record nothing themselves.
 void unchangedFrame(benchmark::State& state, corpus::Workload workload, uint32_t passes) {
   Frames frames(workload, passes);
-  SilentBackend backend;
+  FakeBackend backend;
+  backend.silent = true;
   Executor executor(backend);
   measure(state, frames, [&] { executor.execute(frames.declare(), {.compile = {.aliasing = Aliasing::fast}}); });
 }
