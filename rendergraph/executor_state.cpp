@@ -80,7 +80,11 @@ void ExecutorState::makeResources(const Declaration& declaration, uint32_t slot)
     plans.releaseResources(1);
     waitForAll();
     graveyard.release(finishedFrame());
-    current->resources->prepare(backend, pool, declaration, current->plan, slot);
+    try {
+      current->resources->prepare(backend, pool, declaration, current->plan, slot);
+    } catch (const GraphError&) {
+      throw error;  // The first one names what did not fit when more was there.
+    }
   }
 }
 

@@ -38,6 +38,15 @@ void makeObject(Backend& backend, const DeclaredResource& resource, const Placem
   object.address = address + (dedicated ? 0 : placement.offset);
 }
 
+/// The resource that has most to do with the size of a heap.
+std::string_view largestIn(const Declaration& declaration, const Plan& plan, uint32_t heap) {
+  const Placement* largest = nullptr;
+  for (const Placement& placement : plan.placements) {
+    if (placement.heap == heap && (largest == nullptr || placement.size > largest->size)) largest = &placement;
+  }
+  return largest != nullptr ? declaration.resources[largest->resource].name : std::string_view();
+}
+
 }  // namespace
 
 HeapId HeapPool::acquire(Backend& backend, const PlannedHeap& planned, uint32_t slot, Heaps& taken) {
@@ -72,7 +81,8 @@ void PlanResources::make(Backend& backend, HeapPool& pool, const Declaration& de
   for (std::size_t i = 0; i < plan.heaps.size(); ++i) {
     const PlannedHeap& heap = plan.heaps[i];
     if (heap.dedicated || (heap.memory != MemoryKind::device) != hostVisible) continue;
-    made.heaps[i] = pool.acquire(backend, heap, slot, made.taken);
+    namingResource(largestIn(declaration, plan, static_cast<uint32_t>(i)),
+                   [&] { made.heaps[i] = pool.acquire(backend, heap, slot, made.taken); });
   }
   made.objects.resize(plan.placements.size());
   for (std::size_t i = 0; i < plan.placements.size(); ++i) {

@@ -3,6 +3,7 @@
 
 #include <iterator>
 
+#include "rendergraph/naming.h"
 #include "rendergraph/pass.h"
 
 namespace rendergraph {
@@ -191,6 +192,11 @@ void StepRecorder::noteRecording(uint32_t step, double startMs) {
 
 void StepRecorder::recordStep(uint32_t step) {
   const double startMs = millisecondsSince(frame_->start);
+  namingPass(frame_->declared(frame_->plan->passes[step]).name, [&] { recordNamed(step); });
+  noteRecording(step, startMs);
+}
+
+void StepRecorder::recordNamed(uint32_t step) {
   const Plan& plan = *frame_->plan;
   const PlannedPass& planned = plan.passes[step];
   const bool raster = frame_->declared(planned).kind == PassKind::raster;
@@ -204,7 +210,6 @@ void StepRecorder::recordStep(uint32_t step) {
   stamp(step, 1);
   recordSets(planned);
   frame_->backend.endLabel(commands_);
-  noteRecording(step, startMs);
 }
 
 void StepRecorder::recordHostWait(uint32_t step) {

@@ -27,6 +27,7 @@ class StepRecorder {
 
  private:
   friend class PassContext;
+  void recordNamed(uint32_t step);
   void recordWaits(const PlannedPass& planned);
   void recordSets(const PlannedPass& planned);
   void beginRendering(const PlannedPass& planned);

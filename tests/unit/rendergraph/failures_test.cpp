@@ -66,6 +66,37 @@ TEST(Failures, ALostDeviceIsNamedWithThePassesItWasAt) {
   EXPECT_EQ(misuseOf([&] { executor.submit(graph); }), Misuse::deviceLost);
 }
 
+TEST(Failures, WhatFailsWhileAPassIsRecordedNamesPassAndResource) {
+  FakeBackend backend;
+  Executor executor(backend);
+  Graph graph;
+  declare(graph, {.passes = 1, .host = false, .history = false});
+  bool found = false;
+  for (int creations = 0; creations < 20 && !found; ++creations) {
+    executor.clear();
+    backend.failAfter = creations;
+    try {
+      executor.execute(graph);
+    } catch (const GraphError& error) {
+      found = std::string(error.what()).find("pass 'link', resource 'link'") != std::string::npos;
+    }
+  }
+  EXPECT_TRUE(found) << "making the view that the pass binds";
+  backend.failAfter = -1;
+}
+
+TEST(Failures, MemoryThatIsNotThereNamesWhatWasToLieInIt) {
+  FakeBackend backend;
+  Executor executor(backend);
+  Graph graph;
+  declare(graph, {.passes = 1, .host = false, .history = false});
+  backend.failAfter = 0;
+  std::string text;
+  misuseOf([&] { executor.execute(graph); }, &text);
+  EXPECT_THAT(text, testing::AnyOf(HasSubstr("resource 'drawn'"), HasSubstr("resource 'link'")));
+  backend.failAfter = -1;
+}
+
 TEST(Failures, IsolatedTimingNamesTheOnePass) {
   FakeBackend backend;
   backend.failWith = Misuse::deviceLost;
