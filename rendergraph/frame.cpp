@@ -31,6 +31,7 @@ void Frame::recordStart(const CommandStream& commands) {
   state_.backend.beginLabel(commands, "frame start");
   if (state_.slots.size() > 1) {
     // Another plan's frame may still be under way in the same memory; the plan only waits for a frame of its own kind.
+    // Its first barriers chain to this one because, with overlappingFrames, they name stages: NONE would not chain.
     VkMemoryBarrier2 everything{};
     everything.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
     everything.srcStageMask = everything.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
