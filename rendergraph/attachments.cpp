@@ -1,14 +1,18 @@
 // Load operations follow from the declaration, store operations from what comes later.
 #include "rendergraph/attachments.h"
 
+#include <vector>
+
 #include "rendergraph/cells.h"
 #include "rendergraph/declaration.h"
+#include "rendergraph/schedule.h"
 #include "rendergraph/timeline.h"
 
 namespace rendergraph {
 
 namespace {
 
+/// Whether anybody needs what an access leaves after the rendering that begins at `step`.
 bool readLater(const Declaration& declaration, const Cells& cells, const Timeline& timeline, uint32_t access,
                uint32_t step) {
   const DeclaredResource& resource = declaration.resources[declaration.accesses[access].resource];
@@ -36,39 +40,82 @@ VkAttachmentLoadOp loadOpOf(LoadOp load) {
   return VK_ATTACHMENT_LOAD_OP_LOAD;
 }
 
-Run append(std::vector<PlannedAttachment>& all, const std::vector<PlannedAttachment>& some) {
-  const Run run{static_cast<uint32_t>(all.size()), static_cast<uint32_t>(some.size())};
-  all.insert(all.end(), some.begin(), some.end());
-  return run;
-}
+/// Gathers the attachments of one rendering; its passes then share the runs.
+class Rendering {
+ public:
+  Rendering(const Declaration& declaration, const Cells& cells, const Timeline& timeline, uint32_t step)
+      : declaration_(declaration), cells_(cells), timeline_(timeline), step_(step) {}
+
+  void add(uint32_t index) {
+    const DeclaredAccess& access = declaration_.accesses[index];
+    PlannedAttachment attachment{.resource = access.resource,
+                                 .range = access.range,
+                                 .layout = access.layout,
+                                 .load = loadOpOf(access.load),
+                                 .store = VK_ATTACHMENT_STORE_OP_STORE};
+    if (!access.writes()) {
+      attachment.store = VK_ATTACHMENT_STORE_OP_NONE;  // STORE would count as a write.
+    } else if (!readLater(declaration_, cells_, timeline_, index, step_)) {
+      attachment.store = VK_ATTACHMENT_STORE_OP_DONT_CARE;
+    }
+    switch (access.role) {
+      case AttachmentRole::none:
+        break;
+      case AttachmentRole::color:
+        colors_.push_back(attachment);
+        break;
+      case AttachmentRole::depth:
+        depths_.push_back(attachment);
+        break;
+      case AttachmentRole::resolve:
+        colors_.back().resolve = static_cast<uint32_t>(resolved_.size());  // An index of the plan in the end.
+        resolved_.push_back(attachment);
+        break;
+    }
+  }
+
+  void appendTo(Plan& plan, PlannedPass& planned) {
+    const auto first = static_cast<uint32_t>(plan.attachments.size());
+    planned.colors = {first, static_cast<uint32_t>(colors_.size())};
+    planned.depth = {first + planned.colors.count, static_cast<uint32_t>(depths_.size())};
+    for (PlannedAttachment& color : colors_) {
+      if (color.resolve != PlannedAttachment::kNoResolve) color.resolve += planned.depth.first + planned.depth.count;
+    }
+    plan.attachments.insert(plan.attachments.end(), colors_.begin(), colors_.end());
+    plan.attachments.insert(plan.attachments.end(), depths_.begin(), depths_.end());
+    plan.attachments.insert(plan.attachments.end(), resolved_.begin(), resolved_.end());
+  }
+
+ private:
+  const Declaration& declaration_;
+  const Cells& cells_;
+  const Timeline& timeline_;
+  uint32_t step_;
+  std::vector<PlannedAttachment> colors_, depths_, resolved_;
+};
 
 }  // namespace
 
-void planAttachments(const Declaration& declaration, const Cells& cells, const Timeline& timeline, Plan& plan) {
+void planAttachments(const Declaration& declaration, const Cells& cells, const Timeline& timeline,
+                     const Schedule& schedule, Plan& plan) {
   for (uint32_t step = 0; step < plan.passes.size(); ++step) {
     PlannedPass& planned = plan.passes[step];
     const DeclaredPass& pass = declaration.passes[planned.pass];
     if (pass.kind != PassKind::raster) continue;
     planned.renderArea = pass.renderArea;
     planned.renderLayers = pass.renderLayers;
-    std::vector<PlannedAttachment> colors, depths;
-    for (uint32_t index = pass.firstAccess; index != kNone; index = declaration.accesses[index].nextOfPass) {
-      const DeclaredAccess& access = declaration.accesses[index];
-      if (access.role == AttachmentRole::none) continue;
-      PlannedAttachment attachment{.resource = access.resource,
-                                   .range = access.range,
-                                   .layout = access.layout,
-                                   .load = loadOpOf(access.load),
-                                   .store = VK_ATTACHMENT_STORE_OP_STORE};
-      if (!access.writes()) {
-        attachment.store = VK_ATTACHMENT_STORE_OP_NONE;  // STORE would count as a write.
-      } else if (!readLater(declaration, cells, timeline, index, step)) {
-        attachment.store = VK_ATTACHMENT_STORE_OP_DONT_CARE;
-      }
-      (access.role == AttachmentRole::color ? colors : depths).push_back(attachment);
+    if (schedule.unitFirst[step] != step) {
+      const PlannedPass& first = plan.passes[schedule.unitFirst[step]];
+      planned.continuesRendering = true;
+      planned.colors = first.colors;
+      planned.depth = first.depth;
+      continue;
     }
-    planned.colors = append(plan.attachments, colors);
-    planned.depth = append(plan.attachments, depths);
+    Rendering rendering(declaration, cells, timeline, step);
+    for (uint32_t index = pass.firstAccess; index != kNone; index = declaration.accesses[index].nextOfPass) {
+      if (declaration.accesses[index].role != AttachmentRole::none) rendering.add(index);
+    }
+    rendering.appendTo(plan, planned);
   }
 }
 

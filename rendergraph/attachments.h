@@ -6,10 +6,13 @@
 namespace rendergraph {
 
 struct Declaration;
+struct Schedule;
 class Cells;
 class Timeline;
 
-/// Fills the raster part of every planned pass. An attachment that nobody reads afterwards is not stored.
-void planAttachments(const Declaration& declaration, const Cells& cells, const Timeline& timeline, Plan& plan);
+/// Fills the raster part of every PlannedPass. Passes that share one rendering have the same attachments, with the
+/// first one's load and what is stored after the last.
+void planAttachments(const Declaration& declaration, const Cells& cells, const Timeline& timeline,
+                     const Schedule& schedule, Plan& plan);
 
 }  // namespace rendergraph

@@ -8,16 +8,17 @@ namespace rendergraph {
 
 namespace {
 
-auto meaningOf(const PlacedBarrier& placed) {
+auto meaningOf(const FoundBarrier& placed) {
   const ImageBarrier& b = placed.barrier;
-  return std::tuple(placed.step, b.from.pass, b.from.stages, b.from.access, b.to.pass, b.to.stages, b.to.access,
-                    b.oldLayout, b.newLayout, b.reason);
+  return std::tuple(placed.step, placed.earliest, placed.setAfter, placed.submission, b.from.pass, b.from.stages,
+                    b.from.access, b.to.pass, b.to.stages, b.to.access, b.oldLayout, b.newLayout, b.fromQueue,
+                    b.toQueue, b.reason);
 }
 
 /// `key` sorts barriers so that those to be joined stand side by side; `join` extends the first by the second.
 template <class Key, class Join>
-void sweep(std::vector<PlacedBarrier>& barriers, Key&& key, Join&& join) {
-  std::sort(barriers.begin(), barriers.end(), [&](const PlacedBarrier& a, const PlacedBarrier& b) {
+void sweep(std::vector<FoundBarrier>& barriers, Key&& key, Join&& join) {
+  std::sort(barriers.begin(), barriers.end(), [&](const FoundBarrier& a, const FoundBarrier& b) {
     return std::tuple(meaningOf(a), key(a.barrier.range)) < std::tuple(meaningOf(b), key(b.barrier.range));
   });
   std::size_t kept = 0;
@@ -31,7 +32,7 @@ void sweep(std::vector<PlacedBarrier>& barriers, Key&& key, Join&& join) {
 
 }  // namespace
 
-void mergeRanges(std::vector<PlacedBarrier>& barriers) {
+void mergeRanges(std::vector<FoundBarrier>& barriers) {
   if (barriers.size() < 2) return;
   sweep(
       barriers, [](const Subresources& r) { return std::tuple(r.aspects, r.firstMip, r.firstLayer); },

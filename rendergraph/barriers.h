@@ -1,18 +1,33 @@
 // All synchronization of a plan. Pure: uses of cells over time and places in memory in, barriers out.
 #pragma once
 
-#include <cstdint>
+#include <span>
 
+#include "rendergraph/compiler.h"
 #include "rendergraph/plan.h"
+#include "rendergraph/queues.h"
 
 namespace rendergraph {
 
-struct Declaration;
+struct Schedule;
+struct Submissions;
 class Cells;
 class Timeline;
 
-/// Fills PlannedPass::before of every pass, Plan::after and Plan::barrierBatches.
-/// Precondition: passes, heaps and placements of the plan are complete.
-void planBarriers(const Declaration& declaration, const Cells& cells, const Timeline& timeline, Plan& plan);
+/// What the barriers follow from.
+struct BarrierInputs {
+  const Declaration& declaration;
+  const CompileOptions& options;
+  const Cells& cells;
+  const Timeline& timeline;
+  const Schedule& schedule;
+  const Submissions& submissions;
+  std::span<const Sharing> sharing;  ///< Empty on one queue.
+  std::span<const QueueFacts> queues;
+};
+
+/// Fills the barriers, batches and events of the plan.
+/// Precondition: passes, submissions, heaps and placements of the plan are complete.
+void planBarriers(const BarrierInputs& inputs, Plan& plan);
 
 }  // namespace rendergraph

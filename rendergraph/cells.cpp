@@ -7,40 +7,51 @@
 
 namespace rendergraph {
 
-Cells::Cells(const Declaration& declaration) {
+Cells::Cells(const Declaration& declaration) : declaration_(declaration) {
   const auto resources = static_cast<uint32_t>(declaration.resources.size());
+  const auto accesses = static_cast<uint32_t>(declaration.accesses.size());
   grids_.reserve(resources);
-  bounds_.reserve(resources * 4);
-  for (uint32_t resource = 0; resource < resources; ++resource) addGrid(declaration, resource);
-  blocks_.reserve(declaration.accesses.size());
-  for (const DeclaredAccess& access : declaration.accesses) {
-    const Grid& grid = grids_[access.resource];
-    blocks_.push_back({.resource = access.resource,
-                       .aspect = aspectSpan(grid, access.range.aspects),
-                       .mip = spanOf(grid.mips, access.range.firstMip, access.range.mipCount),
-                       .layer = spanOf(grid.layers, access.range.firstLayer, access.range.layerCount)});
+  for (uint32_t resource = 0; resource < resources; ++resource) {
+    const DeclaredResource& declared = declaration.resources[resource];
+    const bool divisible = declared.isImage && (declared.image.mips > 1 || declared.image.layers > 1 ||
+                                                (declared.aspects & (declared.aspects - 1)) != 0);
+    Grid grid = divisible ? dividedGrid(resource) : Grid{};
+    grid.firstCell = count_;
+    count_ += grid.count();
+    grids_.push_back(grid);
   }
+  entries_.resize(accesses);
+  for (uint32_t access = 0; access < accesses; ++access) addEntry(access);
 }
 
-void Cells::addGrid(const Declaration& declaration, uint32_t resource) {
-  const DeclaredResource& declared = declaration.resources[resource];
+void Cells::addEntry(uint32_t access) {
+  const DeclaredAccess& declared = declaration_.accesses[access];
+  const Grid& grid = grids_[declared.resource];
+  if (grid.count() == 1) {
+    entries_[access] = {grid.firstCell, kSingle};
+    return;
+  }
+  entries_[access] = {grid.firstCell, static_cast<uint32_t>(blocks_.size())};
+  blocks_.push_back({.resource = declared.resource,
+                     .aspect = aspectSpan(grid, declared.range.aspects),
+                     .mip = spanOf(grid.mips, declared.range.firstMip, declared.range.mipCount),
+                     .layer = spanOf(grid.layers, declared.range.firstLayer, declared.range.layerCount)});
+}
+
+Cells::Grid Cells::dividedGrid(uint32_t resource) {
+  const DeclaredResource& declared = declaration_.resources[resource];
   Grid grid;
-  grid.firstCell = count_;
-  grid.aspects = declared.aspects;
-  std::vector<uint32_t> mipCuts, layerCuts;
-  if (declared.isImage &&
-      (declared.image.mips > 1 || declared.image.layers > 1 || (declared.aspects & (declared.aspects - 1)) != 0)) {
-    for (const DeclaredAccess& access : declaration.accessesOfResource(resource)) {
-      mipCuts.insert(mipCuts.end(), {access.range.firstMip, access.range.firstMip + access.range.mipCount});
-      layerCuts.insert(layerCuts.end(), {access.range.firstLayer, access.range.firstLayer + access.range.layerCount});
-      if (access.range.aspects != declared.aspects) grid.aspectParts = 2;  // Depth, then stencil.
-    }
+  mipCuts_.clear();
+  layerCuts_.clear();
+  for (const DeclaredAccess& access : declaration_.accessesOfResource(resource)) {
+    mipCuts_.insert(mipCuts_.end(), {access.range.firstMip, access.range.firstMip + access.range.mipCount});
+    layerCuts_.insert(layerCuts_.end(), {access.range.firstLayer, access.range.firstLayer + access.range.layerCount});
+    if (access.range.aspects != declared.aspects) grid.aspectParts = 2;  // Depth, then stencil.
   }
   // A size of zero was reported; it must only not break the arithmetic.
-  grid.mips = divide(declared.isImage ? std::max(1u, declared.image.mips) : 1, mipCuts);
-  grid.layers = divide(declared.isImage ? std::max(1u, declared.image.layers) : 1, layerCuts);
-  count_ += grid.count();
-  grids_.push_back(grid);
+  grid.mips = divide(std::max(1u, declared.image.mips), mipCuts_);
+  grid.layers = divide(std::max(1u, declared.image.layers), layerCuts_);
+  return grid;
 }
 
 Cells::Axis Cells::divide(uint32_t total, std::vector<uint32_t>& cuts) {
@@ -72,6 +83,12 @@ Cells::Span Cells::aspectSpan(const Grid& grid, VkImageAspectFlags aspects) cons
 
 Subresources Cells::rangeOf(uint32_t resource, uint32_t cell) const {
   const Grid& grid = grids_[resource];
+  const DeclaredResource& declared = declaration_.resources[resource];
+  Subresources range{.firstMip = 0, .mipCount = 1, .firstLayer = 0, .layerCount = 1, .aspects = declared.aspects};
+  if (!declared.isImage) return range;
+  range.mipCount = declared.image.mips;
+  range.layerCount = declared.image.layers;
+  if (grid.count() == 1) return range;
   uint32_t index = cell - grid.firstCell;
   const uint32_t layer = index % grid.layers.parts;
   index /= grid.layers.parts;
@@ -79,13 +96,12 @@ Subresources Cells::rangeOf(uint32_t resource, uint32_t cell) const {
   const uint32_t aspect = index / grid.mips.parts;
   const uint32_t* mips = &bounds_[grid.mips.first + mip];
   const uint32_t* layers = &bounds_[grid.layers.first + layer];
-  VkImageAspectFlags aspects = grid.aspects;
-  if (grid.aspectParts == 2) aspects = aspect == 0 ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_STENCIL_BIT;
-  return {.firstMip = mips[0],
-          .mipCount = mips[1] - mips[0],
-          .firstLayer = layers[0],
-          .layerCount = layers[1] - layers[0],
-          .aspects = aspects};
+  range.firstMip = mips[0];
+  range.mipCount = mips[1] - mips[0];
+  range.firstLayer = layers[0];
+  range.layerCount = layers[1] - layers[0];
+  if (grid.aspectParts == 2) range.aspects = aspect == 0 ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_STENCIL_BIT;
+  return range;
 }
 
 }  // namespace rendergraph

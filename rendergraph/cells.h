@@ -16,6 +16,7 @@ struct Declaration;
 
 class Cells {
  public:
+  /// The declaration outlives the cells.
   explicit Cells(const Declaration& declaration);
 
   /// Cells of all resources together; ids are 0 … count()-1.
@@ -27,7 +28,12 @@ class Cells {
   /// Calls use(cell) for every cell of an access.
   template <class Use>
   void forEach(uint32_t access, Use&& use) const {
-    const Block& block = blocks_[access];
+    const Entry& entry = entries_[access];
+    if (entry.block == kSingle) {
+      use(entry.cell);
+      return;
+    }
+    const Block& block = blocks_[entry.block];
     const Grid& grid = grids_[block.resource];
     for (uint32_t aspect = block.aspect.begin; aspect < block.aspect.end; ++aspect) {
       for (uint32_t mip = block.mip.begin; mip < block.mip.end; ++mip) {
@@ -42,6 +48,8 @@ class Cells {
   Subresources rangeOf(uint32_t resource, uint32_t cell) const;
 
  private:
+  static constexpr uint32_t kSingle = UINT32_MAX;
+
   /// Parts of one axis: part i goes from bounds_[first + i] to bounds_[first + i + 1].
   struct Axis {
     uint32_t first = 0, parts = 1;
@@ -50,7 +58,6 @@ class Cells {
     uint32_t firstCell = 0;
     Axis mips, layers;
     uint32_t aspectParts = 1;
-    VkImageAspectFlags aspects = 0;
     uint32_t count() const { return aspectParts * mips.parts * layers.parts; }
   };
   struct Span {
@@ -60,16 +67,25 @@ class Cells {
     uint32_t resource = 0;
     Span aspect, mip, layer;
   };
+  /// Nearly all accesses touch the one cell of their resource.
+  struct Entry {
+    uint32_t cell;
+    uint32_t block;  // Index of blocks_, or kSingle.
+  };
 
   Axis divide(uint32_t total, std::vector<uint32_t>& cuts);
   Span spanOf(const Axis& axis, uint32_t first, uint32_t count) const;
   Span aspectSpan(const Grid& grid, VkImageAspectFlags aspects) const;
-  void addGrid(const Declaration& declaration, uint32_t resource);
+  Grid dividedGrid(uint32_t resource);
+  void addEntry(uint32_t access);
 
+  const Declaration& declaration_;
   uint32_t count_ = 0;
   std::vector<uint32_t> bounds_;
-  std::vector<Grid> grids_;    // By resource.
-  std::vector<Block> blocks_;  // By access.
+  std::vector<Grid> grids_;     // By resource.
+  std::vector<Entry> entries_;  // By access.
+  std::vector<Block> blocks_;
+  std::vector<uint32_t> mipCuts_, layerCuts_;
 };
 
 }  // namespace rendergraph

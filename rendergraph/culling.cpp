@@ -1,6 +1,7 @@
-// Liveness from the observable ends backwards, and the reasons for what is left out.
+// Liveness from the observable ends backwards, as a compiler removes dead code, and the reasons for what is left out.
 #include "rendergraph/culling.h"
 
+#include <algorithm>
 #include <string>
 
 #include "rendergraph/cells.h"
@@ -11,25 +12,58 @@ namespace rendergraph {
 
 namespace {
 
-std::vector<uint32_t> observableWriters(const Declaration& declaration, const Cells& cells, const DataFlow& flow) {
-  std::vector<uint32_t> roots;
-  for (uint32_t pass = 0; pass < declaration.passes.size(); ++pass) {
-    if (declaration.passes[pass].sideEffect) roots.push_back(pass);
-  }
-  for (const DeclaredAccess& access : declaration.accesses) {
-    if (access.writes() && !declaration.resources[access.resource].created()) roots.push_back(access.pass);
-  }
-  for (uint32_t resource = 0; resource < declaration.resources.size(); ++resource) {
-    if (!declaration.resources[resource].exported) continue;
-    const uint32_t first = cells.firstOf(resource);
-    for (uint32_t cell = first; cell < first + cells.countOf(resource); ++cell) {
-      if (flow.lastWriter[cell] != kNone) roots.push_back(flow.lastWriter[cell]);
+/// Cells whose content somebody later needs.
+class Needs {
+ public:
+  Needs(const Declaration& declaration, const Cells& cells)
+      : declaration_(declaration), cells_(cells), needed_(cells.count(), 0) {
+    for (uint32_t resource = 0; resource < declaration.resources.size(); ++resource) {
+      if (!declaration.resources[resource].exported) continue;
+      const uint32_t first = cells.firstOf(resource);
+      std::fill_n(needed_.begin() + first, cells.countOf(resource), uint8_t{1});
     }
   }
-  return roots;
-}
+
+  /// Whether somebody after the pass needs what it does.
+  bool wants(uint32_t pass) const {
+    const DeclaredPass& declared = declaration_.passes[pass];
+    if (declared.sideEffect && !declared.disabled) return true;
+    for (uint32_t index = declared.firstAccess; index != kNone; index = declaration_.accesses[index].nextOfPass) {
+      const DeclaredAccess& access = declaration_.accesses[index];
+      if (!access.writes()) continue;
+      if (!declaration_.resources[access.resource].created()) return true;
+      bool any = false;
+      cells_.forEach(index, [&](uint32_t cell) { any = any || needed_[cell]; });
+      if (any) return true;
+    }
+    return false;
+  }
+
+  /// Steps before the pass: what it replaces is needed no more, what it reads is.
+  void stepBefore(uint32_t pass) {
+    set(
+        pass, [](const DeclaredAccess& access) { return !access.needsContent(); }, 0);
+    set(
+        pass, [](const DeclaredAccess& access) { return access.needsContent(); }, 1);
+  }
+
+ private:
+  template <class Which>
+  void set(uint32_t pass, Which&& which, uint8_t value) {
+    for (uint32_t index = declaration_.passes[pass].firstAccess; index != kNone;
+         index = declaration_.accesses[index].nextOfPass) {
+      if (!which(declaration_.accesses[index])) continue;
+      cells_.forEach(index, [&](uint32_t cell) { needed_[cell] = value; });
+    }
+  }
+
+  const Declaration& declaration_;
+  const Cells& cells_;
+  std::vector<uint8_t> needed_;
+};
 
 std::string reasonFor(const Declaration& declaration, uint32_t pass, std::span<const Edge> consumers) {
+  if (declaration.passes[pass].disabled) return "its condition is false";
   std::string reason;
   for (const DeclaredAccess& access : declaration.accessesOfPass(pass)) {
     if (!access.writes()) continue;
@@ -48,23 +82,21 @@ std::string reasonFor(const Declaration& declaration, uint32_t pass, std::span<c
 
 }  // namespace
 
-Culling cull(const Declaration& declaration, const Cells& cells, const DataFlow& flow) {
+Culling cull(const Declaration& declaration, const Cells& cells, std::span<const uint32_t> sequence) {
   const auto passes = static_cast<uint32_t>(declaration.passes.size());
   Culling result;
   result.alive.assign(passes, 0);
-  const Adjacency producers(flow.edges, passes, Adjacency::By::to);
-  std::vector<uint32_t> waiting = observableWriters(declaration, cells, flow);
-  while (!waiting.empty()) {
-    const uint32_t pass = waiting.back();
-    waiting.pop_back();
-    if (result.alive[pass]) continue;
+  Needs needs(declaration, cells);
+  uint32_t living = 0;
+  for (std::size_t i = sequence.size(); i-- > 0;) {
+    const uint32_t pass = sequence[i];
+    if (!needs.wants(pass)) continue;
     result.alive[pass] = 1;
-    for (const Edge& edge : producers.of(pass)) waiting.push_back(edge.from);
+    ++living;
+    needs.stepBefore(pass);
   }
-  bool anyCulled = false;
-  for (uint32_t pass = 0; pass < passes; ++pass) anyCulled = anyCulled || !result.alive[pass];
-  if (!anyCulled) return result;
-  const Adjacency consumers(flow.edges, passes, Adjacency::By::from);
+  if (living == passes) return result;
+  const Adjacency consumers(dataFlow(declaration, cells), passes, Adjacency::By::from);
   for (uint32_t pass = 0; pass < passes; ++pass) {
     if (!result.alive[pass]) result.culled.push_back({pass, reasonFor(declaration, pass, consumers.of(pass))});
   }

@@ -1,7 +1,8 @@
-// Which passes anything observable needs. Pure.
+// Which passes nothing observable needs, and why each of them can go.
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "rendergraph/plan.h"
@@ -10,15 +11,13 @@ namespace rendergraph {
 
 struct Declaration;
 class Cells;
-struct DataFlow;
 
 struct Culling {
   std::vector<uint8_t> alive;      ///< By pass.
   std::vector<CulledPass> culled;  ///< In order of declaration, each with its reason.
 };
 
-/// A pass lives when it has a side effect, writes something imported or persistent, leaves content in an exported
-/// resource, or produces content that a living pass reads.
-Culling cull(const Declaration& declaration, const Cells& cells, const DataFlow& flow);
+/// `sequence`: all passes in an order in which they can run.
+Culling cull(const Declaration& declaration, const Cells& cells, std::span<const uint32_t> sequence);
 
 }  // namespace rendergraph

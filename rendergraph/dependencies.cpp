@@ -16,23 +16,21 @@ Adjacency::Adjacency(std::span<const Edge> edges, uint32_t passes, By by)
   for (const Edge& edge : edges) edges_[next[key(edge)]++] = edge;
 }
 
-DataFlow dataFlow(const Declaration& declaration, const Cells& cells) {
-  DataFlow flow;
-  flow.lastWriter.assign(cells.count(), kNone);
+std::vector<Edge> dataFlow(const Declaration& declaration, const Cells& cells) {
+  std::vector<Edge> edges;
+  std::vector<uint32_t> writers(cells.count(), kNone);
   for (uint32_t index = 0; index < declaration.accesses.size(); ++index) {
     const DeclaredAccess& access = declaration.accesses[index];
     cells.forEach(index, [&](uint32_t cell) {
-      uint32_t& writer = flow.lastWriter[cell];
+      const uint32_t writer = writers[cell];
       if (access.needsContent() && writer != kNone && writer != access.pass) {
         const Edge edge{writer, access.pass, access.resource};
-        const bool repeated = !flow.edges.empty() && flow.edges.back().from == edge.from &&
-                              flow.edges.back().to == edge.to && flow.edges.back().resource == edge.resource;
-        if (!repeated) flow.edges.push_back(edge);
+        if (edges.empty() || edges.back() != edge) edges.push_back(edge);
       }
-      if (access.writes()) writer = access.pass;
+      if (access.writes()) writers[cell] = access.pass;
     });
   }
-  return flow;
+  return edges;
 }
 
 namespace {

@@ -14,6 +14,7 @@ struct Edge {
   uint32_t from = 0;  ///< Pass that comes first.
   uint32_t to = 0;
   uint32_t resource = 0;  ///< Because of this one.
+  bool operator==(const Edge&) const = default;
 };
 
 /// Edges grouped by one end.
@@ -30,11 +31,8 @@ class Adjacency {
   std::vector<Edge> edges_;
 };
 
-struct DataFlow {
-  std::vector<Edge> edges;           ///< From the producer of content to the pass that reads it.
-  std::vector<uint32_t> lastWriter;  ///< By cell: the pass whose content remains at the end; kNone without one.
-};
-DataFlow dataFlow(const Declaration& declaration, const Cells& cells);
+/// From the producer of content to the passes that read it.
+std::vector<Edge> dataFlow(const Declaration& declaration, const Cells& cells);
 
 /// Why pass order matters: read after write, write after read, write after write; among the living passes only.
 /// May name the same pair more than once.

@@ -1,58 +1,95 @@
-// Sweeps over time with, for each heap, a map from byte ranges to their latest occupants.
+// Sweeps over time with, for each heap, its byte ranges and their latest occupants. With overlapping frames the sweep
+// is done twice, and the second one starts from what the first one left.
 #include "rendergraph/occupants.h"
 
 #include <algorithm>
-#include <map>
 
 namespace rendergraph {
 
 namespace {
 
+constexpr uint32_t kEnd = UINT32_MAX;
+
+/// One heap. Segments are contiguous and sorted; the last one reaches to infinity.
 class HeapMap {
  public:
-  /// Gives the bytes to `resource` and adds to `before` everyone who must have finished.
-  void occupy(const Placement& placement, bool replaces, std::vector<uint32_t>& before) {
-    const VkDeviceSize begin = placement.offset, end = placement.offset + placement.size;
-    split(begin);
-    split(end);
-    if (segments_.empty()) return;
-    for (auto segment = segments_.lower_bound(begin); segment != segments_.end() && segment->first < end; ++segment) {
-      std::vector<uint32_t>& occupants = segment->second;
-      before.insert(before.end(), occupants.begin(), occupants.end());
-      if (replaces) occupants.clear();
-      occupants.push_back(placement.resource);
+  /// Gives the bytes to the resource and calls before(occupant) for everyone who had some of them.
+  template <class Use>
+  void occupy(const Placement& placement, bool replaces, Use&& before) {
+    const std::size_t first = split(placement.offset);
+    const std::size_t end = split(placement.offset + placement.size);
+    for (std::size_t i = first; i < end; ++i) {
+      Segment& segment = segments_[i];
+      for (uint32_t node = segment.occupants; node != kEnd; node = nodes_[node].next) before(nodes_[node].occupant);
+      nodes_.push_back({{placement.resource, false}, replaces ? kEnd : segment.occupants});
+      segment.occupants = static_cast<uint32_t>(nodes_.size() - 1);
     }
+    if (replaces)
+      segments_.erase(segments_.begin() + static_cast<std::ptrdiff_t>(first) + 1,
+                      segments_.begin() + static_cast<std::ptrdiff_t>(end));
+  }
+  void beginNextFrame() {
+    for (Node& node : nodes_) node.occupant.frameBefore = true;
   }
 
  private:
-  /// Makes `at` the start of a segment. Segments are contiguous; the last one reaches to infinity.
-  void split(VkDeviceSize at) {
-    if (segments_.empty()) segments_[0] = {};
-    auto next = segments_.upper_bound(at);
-    --next;
-    if (next->first != at) segments_.emplace(at, next->second);
+  struct Segment {
+    VkDeviceSize begin;
+    uint32_t occupants;  // Head of a list of nodes.
+  };
+  struct Node {
+    Occupant occupant;
+    uint32_t next;
+  };
+
+  /// Makes `at` the start of a segment. Lists of nodes may be shared: a node never changes its successor.
+  std::size_t split(VkDeviceSize at) {
+    const auto next =
+        std::upper_bound(segments_.begin(), segments_.end(), at,
+                         [](VkDeviceSize value, const Segment& segment) { return value < segment.begin; });
+    const auto index = static_cast<std::size_t>(next - segments_.begin()) - 1;
+    if (segments_[index].begin == at) return index;
+    segments_.insert(next, Segment{at, segments_[index].occupants});
+    return index + 1;
   }
-  std::map<VkDeviceSize, std::vector<uint32_t>> segments_;
+
+  std::vector<Segment> segments_{{0, kEnd}};
+  std::vector<Node> nodes_;
 };
 
 }  // namespace
 
-std::vector<std::vector<uint32_t>> previousOccupants(std::span<const Placement> placements, std::size_t resources,
-                                                     std::span<const uint8_t> fullyUsed) {
-  std::vector<std::vector<uint32_t>> result(resources);
-  std::vector<const Placement*> byTime;
-  for (const Placement& placement : placements) byTime.push_back(&placement);
-  std::sort(byTime.begin(), byTime.end(), [](const Placement* a, const Placement* b) {
-    return std::pair(a->firstStep, a->resource) < std::pair(b->firstStep, b->resource);
-  });
-  std::map<uint32_t, HeapMap> heaps;
-  for (const Placement* placement : byTime) {
-    std::vector<uint32_t>& before = result[placement->resource];
-    heaps[placement->heap].occupy(*placement, fullyUsed[placement->resource] != 0, before);
-    std::sort(before.begin(), before.end());
-    before.erase(std::unique(before.begin(), before.end()), before.end());
+Occupants::Occupants(std::span<const Placement> placements, std::size_t resources, std::span<const uint8_t> fullyUsed,
+                     bool overlappingFrames)
+    : starts_(resources, 0), counts_(resources, 0) {
+  // By first step, then by resource: placements are sorted by resource already, so counting keeps that.
+  uint32_t steps = 0, heaps = 0;
+  for (const Placement& placement : placements) {
+    steps = std::max(steps, placement.firstStep + 1);
+    heaps = std::max(heaps, placement.heap + 1);
   }
-  return result;
+  std::vector<uint32_t> next(steps + 1, 0);
+  for (const Placement& placement : placements) ++next[placement.firstStep + 1];
+  for (uint32_t step = 0; step < steps; ++step) next[step + 1] += next[step];
+  std::vector<uint32_t> byTime(placements.size());
+  for (uint32_t i = 0; i < placements.size(); ++i) byTime[next[placements[i].firstStep]++] = i;
+
+  std::vector<HeapMap> maps(heaps);
+  all_.reserve(placements.size() * 2);
+  for (int frame = overlappingFrames ? 0 : 1; frame < 2; ++frame) {
+    for (uint32_t index : byTime) {
+      const Placement& placement = placements[index];
+      const auto start = static_cast<uint32_t>(all_.size());
+      maps[placement.heap].occupy(placement, fullyUsed[placement.resource] != 0, [&](const Occupant& occupant) {
+        if (std::find(all_.begin() + start, all_.end(), occupant) == all_.end()) all_.push_back(occupant);
+      });
+      starts_[placement.resource] = start;
+      counts_[placement.resource] = static_cast<uint32_t>(all_.size()) - start;
+    }
+    if (frame == 1) break;
+    all_.clear();
+    for (HeapMap& map : maps) map.beginNextFrame();
+  }
 }
 
 }  // namespace rendergraph

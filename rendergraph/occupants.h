@@ -1,4 +1,4 @@
-// Who used the memory of a resource before it: the resources whose last uses its first use must wait for. Pure.
+// Who had a resource's memory before it. Pure.
 #pragma once
 
 #include <cstdint>
@@ -9,10 +9,27 @@
 
 namespace rendergraph {
 
-/// By resource: those whose bytes it takes over. Only the latest occupants of each byte are named, since these have
-/// waited for the ones before; but an occupant that left a part of its memory untouched (`fullyUsed` false) has not
-/// waited everywhere, so those before it are named too.
-std::vector<std::vector<uint32_t>> previousOccupants(std::span<const Placement> placements, std::size_t resources,
-                                                     std::span<const uint8_t> fullyUsed);
+/// Somebody whose last uses a resource's first use must wait for.
+struct Occupant {
+  uint32_t resource = 0;
+  bool frameBefore = false;  ///< It had the memory at the end of the frame before; it may be the resource itself.
+  bool operator==(const Occupant&) const = default;
+};
+
+class Occupants {
+ public:
+  Occupants() = default;
+  /// `fullyUsed`: by resource, whether every part of it is used, so that waiting for it is waiting for everybody
+  /// before it as well. `overlappingFrames`: as in CompileOptions.
+  Occupants(std::span<const Placement> placements, std::size_t resources, std::span<const uint8_t> fullyUsed,
+            bool overlappingFrames);
+  std::span<const Occupant> before(uint32_t resource) const {
+    return {all_.data() + starts_[resource], all_.data() + starts_[resource] + counts_[resource]};
+  }
+
+ private:
+  std::vector<uint32_t> starts_, counts_;  // By resource.
+  std::vector<Occupant> all_;
+};
 
 }  // namespace rendergraph

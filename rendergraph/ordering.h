@@ -18,7 +18,8 @@ struct PassOrder {
 
   /// The time of a step in which lifetimes are counted: memory changes hands between groups only. One past the last
   /// step is a time of its own.
-  uint32_t timeOf(uint32_t step) const {
+  uint32_t timeOf(uint32_t step) const { return timeOf(step, groups); }
+  static uint32_t timeOf(uint32_t step, const std::vector<uint32_t>& groups) {
     if (groups.empty()) return step;
     return step < groups.size() ? groups[step] : groups.back() + 1;
   }

@@ -131,8 +131,9 @@ struct SubmissionWait {
 };
 
 /// Steps that one queue executes without waiting for another in between: one vkQueueSubmit2. A plan on one queue has
-/// a single one, or one more for each host pass. A plan on several begins with one on queue 0 that makes the first
-/// submissions of the others wait for whatever the host did before, and ends with one on queue 0 that waits for all.
+/// a single one, or one more for each host pass. A plan on several begins with one without steps on
+/// queue 0, for which others wait where they need what the host or the frame before did, and ends with one on queue 0
+/// that waits for all.
 struct PlannedSubmission {
   uint32_t queue = 0;
   Run steps;           ///< Of Plan::passes; may be empty.

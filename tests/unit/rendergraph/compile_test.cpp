@@ -156,7 +156,7 @@ TEST(Attachments, StoreOnlyWhatIsReadLater) {
   color = second.color(color, {.load = LoadOp::load});
   depth = second.depth(depth, {.load = LoadOp::load});
   graph.exportImage(color, kSampled);
-  const Plan plan = planOf(graph);
+  const Plan plan = compile(graph.declaration(), {.mergeRasterPasses = false}, NominalDevice());
   EXPECT_EQ(plan.colorsOf(plan.passes[0])[0].load, VK_ATTACHMENT_LOAD_OP_CLEAR);
   EXPECT_EQ(plan.depthOf(plan.passes[0])[0].store, VK_ATTACHMENT_STORE_OP_STORE);
   EXPECT_EQ(plan.colorsOf(plan.passes[1])[0].load, VK_ATTACHMENT_LOAD_OP_LOAD);

@@ -66,7 +66,7 @@ class PlanOrder {
   bool covers(uint32_t node, uint32_t earlier) const {
     return (reach_[node * words_ + earlier / 64] >> (earlier % 64) & 1) != 0;
   }
-  /// Whether every submission follows the first one and the last one follows all.
+  /// Whether the last submission follows all.
   bool edgesHold() const;
 
  private:

@@ -149,7 +149,7 @@ class Structure {
            "the first and the last submission are not on the first queue");
     if (!findings_.empty() || !several) return;
     expect(PlanOrder(declaration_, plan_, 1, false).edgesHold(),
-           "a submission does not follow the first one, or the last one does not wait for it");
+           "the last submission does not wait for all");
   }
 
   void checkWaits(uint32_t index) {

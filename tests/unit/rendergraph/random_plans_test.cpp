@@ -115,8 +115,7 @@ TEST(RandomPlans, EveryBarrierIsNeededInEveryBit) {
   expectNothingSuperfluous(Vary::someOptions);
 }
 
-// To be enabled when compile() follows every option, and device's wishes for memory.
-TEST(RandomPlans, DISABLED_NoDependencyIsMissingWithAnyOption) {
+TEST(RandomPlans, NoDependencyIsMissingWithAnyOption) {
   const Counts counts = expectNothingMissing(Vary::everyOption);
   EXPECT_GT(counts.transfers, 1000u);
   EXPECT_GT(counts.waits, 10000u);
@@ -125,11 +124,11 @@ TEST(RandomPlans, DISABLED_NoDependencyIsMissingWithAnyOption) {
   EXPECT_GT(counts.concurrent, 100u);
 }
 
-TEST(RandomPlans, DISABLED_EveryBitIsNeededWithAnyOption) {
+TEST(RandomPlans, EveryBitIsNeededWithAnyOption) {
   expectNothingSuperfluous(Vary::everyOption);
 }
 
-TEST(RandomPlans, DISABLED_BatchesAreTheFewest) {
+TEST(RandomPlans, BatchesAreTheFewest) {
   constexpr uint32_t kGraphs = 1000;
   for (uint32_t seed = 200000; seed < 200000 + kGraphs; ++seed) {
     Case random(seed, Vary::everyOption, 40);

@@ -1,0 +1,32 @@
+// Where barriers stand: before the pass that needs them, together with others, at the end of a submission, or split
+// into events. Pure.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "rendergraph/compiler.h"
+#include "rendergraph/plan.h"
+
+namespace rendergraph {
+
+struct Declaration;
+struct Schedule;
+
+/// A barrier and the steps before which it may stand.
+struct FoundBarrier {
+  static constexpr uint32_t kNowhere = std::numeric_limits<uint32_t>::max();
+  uint32_t step = 0;               ///< The latest: that of the use that it protects; the number of steps: at the end.
+  uint32_t earliest = 0;           ///< After the last use that it waits for.
+  uint32_t setAfter = kNowhere;    ///< Step of that use, when it is in the frame and on the same queue.
+  uint32_t submission = kNowhere;  ///< At the end of this submission, and nowhere else.
+  ImageBarrier barrier;            ///< Of a buffer too, then without range and layouts.
+};
+
+/// Fills the barriers, batches and events of the plan. Precondition: its passes and submissions are complete.
+void placeBarriers(const Declaration& declaration, const CompileOptions& options, const Schedule& schedule,
+                   std::span<const QueueFacts> queues, std::vector<FoundBarrier>& found, Plan& plan);
+
+}  // namespace rendergraph

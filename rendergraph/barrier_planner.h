@@ -1,0 +1,76 @@
+// The walk over every cell that finds its barriers; barriers.cpp for cells on one queue, queue_barriers.cpp for those
+// that several queues use.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "rendergraph/barrier_placement.h"
+#include "rendergraph/barrier_scopes.h"
+#include "rendergraph/barriers.h"
+#include "rendergraph/cells.h"
+#include "rendergraph/declaration.h"
+#include "rendergraph/occupants.h"
+#include "rendergraph/schedule.h"
+#include "rendergraph/submissions.h"
+#include "rendergraph/timeline.h"
+
+namespace rendergraph {
+
+/// A cell between two epochs.
+struct CellState {
+  VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
+  AccessPoint last;           ///< Stages 0: nothing to wait for.
+  uint32_t lastStep = kNone;  ///< Of `last`, when it is in this frame.
+  bool wrote = false;         ///< `last` wrote and nobody has waited for it yet.
+  bool alias = false;         ///< `last` had the memory before.
+  bool fixed = false;         ///< `last` was on another queue: the barrier stands after the wait for it, at the use.
+  Visibility visible = Visibility::toEverything();
+};
+
+class BarrierPlanner {
+ public:
+  BarrierPlanner(const BarrierInputs& inputs, Plan& plan) : in_(inputs), plan_(plan) {}
+  void run();
+
+ private:
+  // Who had the memory before.
+  void findOccupants();
+  void noteFinalScopes(uint32_t resource, uint32_t cell);
+  CellState stateAfterOccupants(uint32_t resource, uint32_t queue) const;
+  CellState stateBefore(uint32_t resource, uint32_t queue) const;
+
+  // One queue.
+  void planResource(uint32_t resource);
+  void addUseAfter(const DeclaredResource& resource, VkImageLayout layoutBefore);
+  void planCell(uint32_t resource, uint32_t cell, const CellState& start);
+  void joinReads(uint32_t resource, uint32_t cell, CellState& state, const Epoch& epoch);
+  void separate(uint32_t resource, uint32_t cell, const CellState& state, const Epoch& epoch, bool transition);
+  void add(uint32_t resource, uint32_t cell, const Epoch& epoch, const CellState& state, ImageBarrier barrier,
+           VkAccessFlags2 access);
+
+  // Several queues.
+  struct Crossing;
+  bool crosses(const DeclaredResource& resource) const;
+  void planCrossingCell(uint32_t resource, uint32_t cell, const CellState& start);
+  void cross(Crossing& crossing, const Epoch& epoch);
+  void transferOwnership(Crossing& crossing, const Epoch& epoch);
+  void changeLayoutAtEnd(Crossing& crossing, const Epoch& epoch);
+  void changeLayoutBefore(Crossing& crossing, const Epoch& epoch);
+  void waitOnOwnQueue(Crossing& crossing, const Epoch& epoch, uint32_t queue);
+  void addCrossing(const Crossing& crossing, const Epoch& epoch, uint32_t queue, ImageBarrier barrier);
+  uint32_t submissionAfter(const Crossing& crossing) const;
+
+  const BarrierInputs& in_;
+  Plan& plan_;
+  /// What a successor in memory waits for, by resource and queue; the steps by resource.
+  std::vector<AccessPoint> finalScopes_;
+  std::vector<uint32_t> finalSteps_;
+  Occupants occupants_;
+  std::vector<CellUse> uses_;        // Of the current cell.
+  std::vector<FoundBarrier> found_;  // Of the current resource.
+  std::vector<FoundBarrier> all_;
+};
+
+}  // namespace rendergraph

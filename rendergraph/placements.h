@@ -1,0 +1,20 @@
+// Lives of the graph's own resources, and their places in memory. Pure.
+#pragma once
+
+#include <span>
+
+#include "rendergraph/compiler.h"
+#include "rendergraph/plan.h"
+#include "rendergraph/queues.h"
+#include "rendergraph/resource_uses.h"
+
+namespace rendergraph {
+
+struct Schedule;
+struct Submissions;
+
+/// Fills Plan::placements, heaps, retained and memory. `sharing` is empty on one queue.
+void placeResources(const Declaration& declaration, std::span<const ResourceUse> uses, std::span<const Sharing> sharing,
+                    const Schedule& schedule, const Submissions& submissions, Aliasing aliasing, Plan& plan);
+
+}  // namespace rendergraph

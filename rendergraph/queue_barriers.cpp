@@ -1,0 +1,221 @@
+// Cells that several queues use. Semaphores order the queues, make every write available and visible to the stages
+// that wait (Vulkan 1.3, 7.4.2 and 7.6.4), so between queues a barrier is needed for two things only:
+//   a new layout      by the queue that used the cell last, at the end of its submission, when several queues read
+//                     the cell next; else by the queue that uses it next, chained to the stages that waited;
+//   a new owner       released at the end of the last submission of the old owner's queue that uses it, and acquired
+//                     before the first use by the new one; both name the layouts.
+// On the queue that goes on using the cell itself, the rules of barriers.cpp hold.
+#include <algorithm>
+
+#include "rendergraph/barrier_planner.h"
+
+namespace rendergraph {
+
+namespace {
+
+bool has(const Epoch& epoch, uint32_t queue) {
+  return std::any_of(epoch.uses.begin(), epoch.uses.end(), [&](const CellUse& use) { return use.queue == queue; });
+}
+
+bool onSeveralQueues(const Epoch& epoch) {
+  return std::any_of(epoch.uses.begin(), epoch.uses.end(),
+                     [&](const CellUse& use) { return use.queue != epoch.uses.front().queue; });
+}
+
+/// One of the stages of a queue that have waited for the semaphore when an epoch begins: enough to chain to it.
+VkPipelineStageFlags2 waitingStage(const Epoch& epoch, uint32_t queue) {
+  const VkPipelineStageFlags2 stages = partOf(epoch, queue).stages;
+  const bool afterTheGraph = epoch.uses.front().pass == AccessPoint::kOutside;
+  const bool everything = afterTheGraph || (stages & VK_PIPELINE_STAGE_2_HOST_BIT) != 0;
+  return everything ? VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT : stages & ~(stages - 1);
+}
+
+}  // namespace
+
+/// A cell that changes queues, between two epochs.
+struct BarrierPlanner::Crossing {
+  struct OnQueue {
+    bool used = false;  // By the last epoch.
+    AccessPoint last;   // Its part of it.
+    Visibility visible = Visibility::to(0, 0);
+  };
+  uint32_t resource, cell;
+  Sharing sharing;
+  VkImageLayout layout;
+  bool hasContent;  // Somebody has written it, or it came from outside.
+  bool wrote;
+  bool alias;
+  uint32_t lastStep;   // kNone: before the graph.
+  uint32_t lastQueue;  // Of lastStep.
+  std::vector<OnQueue> queues;
+
+  bool onOneQueue() const {
+    return std::count_if(queues.begin(), queues.end(), [](const OnQueue& queue) { return queue.used; }) == 1;
+  }
+};
+
+bool BarrierPlanner::crosses(const DeclaredResource& resource) const {
+  const uint32_t home = resource.created() ? uses_.front().queue : 0;
+  return std::any_of(uses_.begin(), uses_.end(), [&](const CellUse& use) { return use.queue != home; });
+}
+
+void BarrierPlanner::planCrossingCell(uint32_t resource, uint32_t cell, const CellState& start) {
+  const DeclaredResource& declared = in_.declaration.resources[resource];
+  const uint32_t home = declared.created() ? uses_.front().queue : 0;
+  Crossing crossing{.resource = resource,
+                    .cell = cell,
+                    .sharing = in_.sharing[resource],
+                    .layout = start.layout,
+                    .hasContent = !declared.created(),
+                    .wrote = start.wrote,
+                    .alias = start.alias,
+                    .lastStep = kNone,
+                    .lastQueue = home,
+                    .queues = std::vector<Crossing::OnQueue>(in_.schedule.queues)};
+  crossing.queues[home] = {.used = true, .last = start.last, .visible = start.visible};
+  for (std::size_t first = 0; first < uses_.size();) {
+    const Epoch epoch = epochAt(uses_, first, crossing.sharing == Sharing::inTurns);
+    cross(crossing, epoch);
+    first += epoch.uses.size();
+  }
+}
+
+void BarrierPlanner::cross(Crossing& crossing, const Epoch& epoch) {
+  const bool isImage = in_.declaration.resources[crossing.resource].isImage;
+  const bool transition = isImage && crossing.layout != epoch.layout();
+  const bool owned = crossing.sharing == Sharing::exclusive || crossing.sharing == Sharing::inTurns;
+  const uint32_t family = in_.queues[crossing.lastQueue].family;
+  const bool newOwner =
+      owned && crossing.hasContent && epoch.needsContent() && in_.queues[epoch.uses.front().queue].family != family;
+  std::vector<Crossing::OnQueue> after(in_.schedule.queues);
+  for (uint32_t queue = 0; queue < in_.schedule.queues; ++queue) {
+    if (!has(epoch, queue)) continue;
+    const Epoch part = partOf(epoch, queue);
+    after[queue].used = true;
+    after[queue].last = {.pass = epoch.uses.back().lastPass,
+                         .stages = part.stages,
+                         .access = epoch.writes() ? part.access & kWriteAccess : 0};
+    if (epoch.writes()) continue;
+    // A semaphore makes content visible to every kind of access.
+    const bool bySemaphore = !crossing.queues[queue].used;
+    after[queue].visible = Visibility::to(part.stages, bySemaphore ? ~VkAccessFlags2{0} : part.access);
+  }
+  if (newOwner) {
+    transferOwnership(crossing, epoch);
+  } else if (transition && crossing.onOneQueue() && onSeveralQueues(epoch)) {
+    changeLayoutAtEnd(crossing, epoch);
+  } else if (transition) {
+    changeLayoutBefore(crossing, epoch);
+  } else {
+    for (uint32_t queue = 0; queue < in_.schedule.queues; ++queue) {
+      if (has(epoch, queue) && crossing.queues[queue].used) waitOnOwnQueue(crossing, epoch, queue);
+    }
+  }
+  crossing.queues = std::move(after);
+  crossing.layout = epoch.layout();
+  crossing.hasContent = true;
+  crossing.wrote = epoch.writes();
+  crossing.alias = false;
+  crossing.lastStep = epoch.uses.back().step;
+  crossing.lastQueue = epoch.uses.back().queue;
+}
+
+uint32_t BarrierPlanner::submissionAfter(const Crossing& crossing) const {
+  return crossing.lastStep == kNone ? 0 : in_.submissions.of[in_.schedule.unitLast[crossing.lastStep]];
+}
+
+void BarrierPlanner::transferOwnership(Crossing& crossing, const Epoch& epoch) {
+  const uint32_t queue = epoch.uses.front().queue;
+  AccessPoint from = crossing.queues[crossing.lastQueue].last;
+  // Nothing to wait for means that the barrier at the end of the frame before was seen to it.
+  if (from.stages == 0 && in_.options.overlappingFrames) from.stages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+  ImageBarrier release{.from = from,
+                       .to = {.pass = epoch.uses.front().pass},
+                       .oldLayout = crossing.layout,
+                       .newLayout = epoch.layout(),
+                       .fromQueue = crossing.lastQueue,
+                       .toQueue = queue,
+                       .reason = BarrierReason::release};
+  release.resource = crossing.resource;
+  release.range = in_.cells.rangeOf(crossing.resource, crossing.cell);
+  found_.push_back({.step = in_.schedule.steps(), .submission = submissionAfter(crossing), .barrier = release});
+
+  ImageBarrier acquire = release;
+  acquire.from = {.pass = from.pass, .stages = waitingStage(epoch, queue)};
+  acquire.to = {.pass = epoch.uses.front().pass, .stages = epoch.stages, .access = epoch.access};
+  acquire.reason = BarrierReason::acquire;
+  addCrossing(crossing, epoch, queue, acquire);
+}
+
+void BarrierPlanner::changeLayoutAtEnd(Crossing& crossing, const Epoch& epoch) {
+  AccessPoint from = crossing.queues[crossing.lastQueue].last;
+  if (from.stages == 0 && in_.options.overlappingFrames) from.stages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+  const Epoch part = partOf(epoch, crossing.lastQueue);  // The others learn of it by semaphores.
+  ImageBarrier barrier{.from = from,
+                       .to = {.pass = epoch.uses.front().pass, .stages = part.stages, .access = part.access},
+                       .oldLayout = crossing.layout,
+                       .newLayout = epoch.layout(),
+                       .reason = BarrierReason::layout};
+  barrier.resource = crossing.resource;
+  barrier.range = in_.cells.rangeOf(crossing.resource, crossing.cell);
+  found_.push_back({.step = in_.schedule.steps(), .submission = submissionAfter(crossing), .barrier = barrier});
+}
+
+void BarrierPlanner::changeLayoutBefore(Crossing& crossing, const Epoch& epoch) {
+  const uint32_t queue = epoch.uses.front().queue;
+  const Crossing::OnQueue& own = crossing.queues[queue];
+  AccessPoint from;
+  bool elsewhere = false;
+  for (uint32_t other = 0; other < in_.schedule.queues; ++other) {
+    if (!crossing.queues[other].used) continue;
+    elsewhere = elsewhere || other != queue;
+    from.pass = crossing.queues[other].last.pass;
+  }
+  if (own.used) from = own.last;
+  if (elsewhere && (from.stages & partOf(epoch, queue).stages) == 0) from.stages |= waitingStage(epoch, queue);
+  const bool kept = in_.declaration.resources[crossing.resource].retained() && crossing.lastStep == kNone;
+  if (from.stages == 0 && kept && in_.options.overlappingFrames) from.stages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+  const Epoch part = partOf(epoch, queue);
+  const bool dropped = epoch.writes() && !epoch.needsContent();
+  addCrossing(crossing, epoch, queue,
+              {.from = from,
+               .to = {.pass = epoch.uses.front().pass, .stages = part.stages, .access = part.access},
+               .oldLayout = dropped ? VK_IMAGE_LAYOUT_UNDEFINED : crossing.layout,
+               .newLayout = epoch.layout(),
+               .reason = crossing.alias ? BarrierReason::alias : BarrierReason::layout});
+}
+
+/// The queue was among those that used the cell last, and goes on in the same layout.
+void BarrierPlanner::waitOnOwnQueue(Crossing& crossing, const Epoch& epoch, uint32_t queue) {
+  const Crossing::OnQueue& own = crossing.queues[queue];
+  const Epoch part = partOf(epoch, queue);
+  if (own.last.stages == 0) return;
+  ImageBarrier barrier{.from = own.last,
+                       .to = {.stages = part.stages, .access = part.access},
+                       .oldLayout = crossing.layout,
+                       .newLayout = epoch.layout()};
+  if (crossing.wrote) {
+    barrier.reason = epoch.needsContent() ? BarrierReason::readAfterWrite : BarrierReason::writeAfterWrite;
+  } else if (epoch.writes()) {
+    barrier.reason = BarrierReason::writeAfterRead;
+    barrier.to.access =
+        epoch.needsContent() ? own.visible.uncovered(part.stages, part.access & ~kWriteAccess) : VkAccessFlags2{0};
+  } else {
+    if (own.visible.covers(part.stages, part.access)) return;
+    barrier.reason = BarrierReason::readAfterWrite;
+  }
+  if (crossing.alias) barrier.reason = BarrierReason::alias;
+  addCrossing(crossing, epoch, queue, barrier);
+}
+
+/// Before the epoch's first use on a queue. It stays there: earlier, the queue might not have waited yet.
+void BarrierPlanner::addCrossing(const Crossing& crossing, const Epoch& epoch, uint32_t queue, ImageBarrier barrier) {
+  const auto use = std::find_if(epoch.uses.begin(), epoch.uses.end(),
+                                [&](const CellUse& candidate) { return candidate.queue == queue; });
+  barrier.resource = crossing.resource;
+  barrier.range = in_.cells.rangeOf(crossing.resource, crossing.cell);
+  barrier.to.pass = use->pass;
+  found_.push_back({.step = use->step, .earliest = use->step, .barrier = barrier});
+}
+
+}  // namespace rendergraph
