@@ -40,7 +40,18 @@ VkAttachmentLoadOp loadOpOf(LoadOp load) {
   return VK_ATTACHMENT_LOAD_OP_LOAD;
 }
 
-/// Gathers the attachments of one rendering; its passes then share the runs.
+/// The same attachments for a later pass of the rendering, which finds them loaded.
+Run continued(Plan& plan, const Run& attachments) {
+  const Run run{static_cast<uint32_t>(plan.attachments.size()), attachments.count};
+  for (uint32_t i = 0; i < attachments.count; ++i) {
+    PlannedAttachment attachment = plan.attachments[attachments.first + i];
+    attachment.load = VK_ATTACHMENT_LOAD_OP_LOAD;
+    plan.attachments.push_back(attachment);
+  }
+  return run;
+}
+
+/// Gathers the attachments of one rendering.
 class Rendering {
  public:
   Rendering(const Declaration& declaration, const Cells& cells, const Timeline& timeline, uint32_t step)
@@ -107,8 +118,8 @@ void planAttachments(const Declaration& declaration, const Cells& cells, const T
     if (schedule.unitFirst[step] != step) {
       const PlannedPass& first = plan.passes[schedule.unitFirst[step]];
       planned.continuesRendering = true;
-      planned.colors = first.colors;
-      planned.depth = first.depth;
+      planned.colors = continued(plan, first.colors);
+      planned.depth = continued(plan, first.depth);
       continue;
     }
     Rendering rendering(declaration, cells, timeline, step);

@@ -8,11 +8,14 @@ namespace rendergraph {
 
 namespace {
 
-auto meaningOf(const FoundBarrier& placed) {
-  const ImageBarrier& b = placed.barrier;
-  return std::tuple(placed.step, placed.earliest, placed.setAfter, placed.submission, b.from.pass, b.from.stages,
+auto meaningOf(const FoundBarrier& found) {
+  const ImageBarrier& b = found.barrier;
+  // A release and its acquire must name the same range, so neither is joined to others.
+  const bool transfer = b.reason == BarrierReason::release || b.reason == BarrierReason::acquire;
+  const Subresources own = transfer ? b.range : Subresources{};
+  return std::tuple(found.step, found.earliest, found.setAfter, found.submission, b.from.pass, b.from.stages,
                     b.from.access, b.to.pass, b.to.stages, b.to.access, b.oldLayout, b.newLayout, b.fromQueue,
-                    b.toQueue, b.reason);
+                    b.toQueue, b.reason, own.firstMip, own.firstLayer, own.aspects);
 }
 
 /// `key` sorts barriers so that those to be joined stand side by side; `join` extends the first by the second.

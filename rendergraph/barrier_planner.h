@@ -38,12 +38,13 @@ class BarrierPlanner {
   // Who had the memory before.
   void findOccupants();
   void noteFinalScopes(uint32_t resource, uint32_t cell);
+  void noteUnused(uint32_t resource);
+  bool noteExported(const DeclaredResource& declared, std::span<const CellUse> uses, AccessPoint& scope) const;
   CellState stateAfterOccupants(uint32_t resource, uint32_t queue) const;
   CellState stateBefore(uint32_t resource, uint32_t queue) const;
 
   // One queue.
   void planResource(uint32_t resource);
-  void addUseAfter(const DeclaredResource& resource, VkImageLayout layoutBefore);
   void planCell(uint32_t resource, uint32_t cell, const CellState& start);
   void joinReads(uint32_t resource, uint32_t cell, CellState& state, const Epoch& epoch);
   void separate(uint32_t resource, uint32_t cell, const CellState& state, const Epoch& epoch, bool transition);
@@ -59,6 +60,7 @@ class BarrierPlanner {
   void changeLayoutAtEnd(Crossing& crossing, const Epoch& epoch);
   void changeLayoutBefore(Crossing& crossing, const Epoch& epoch);
   void waitOnOwnQueue(Crossing& crossing, const Epoch& epoch, uint32_t queue);
+  void showToHost(Crossing& crossing, const Epoch& epoch, uint32_t queue);
   void addCrossing(const Crossing& crossing, const Epoch& epoch, uint32_t queue, ImageBarrier barrier);
   uint32_t submissionAfter(const Crossing& crossing) const;
 
@@ -67,6 +69,7 @@ class BarrierPlanner {
   /// What a successor in memory waits for, by resource and queue; the steps by resource.
   std::vector<AccessPoint> finalScopes_;
   std::vector<uint32_t> finalSteps_;
+  std::vector<uint8_t> changedAtEnd_;  // By resource: exported in another layout or from another queue.
   Occupants occupants_;
   std::vector<CellUse> uses_;        // Of the current cell.
   std::vector<FoundBarrier> found_;  // Of the current resource.

@@ -13,6 +13,16 @@ namespace rendergraph {
 VkPipelineStageFlags2 expandedStages(VkPipelineStageFlags2 stages);
 VkAccessFlags2 expandedAccess(VkAccessFlags2 access);
 
+/// Where a chain of dependencies passes through that has no stage of its own; queue 0 and every computing one have it.
+inline constexpr VkPipelineStageFlags2 kChainStage = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+
+/// The stages at which a use waits for a semaphore. One by the host, or at no stage, has none of its own that could
+/// wait: what protects it chains from another.
+inline VkPipelineStageFlags2 semaphoreStages(VkPipelineStageFlags2 stages) {
+  const VkPipelineStageFlags2 onDevice = stages & ~VK_PIPELINE_STAGE_2_HOST_BIT;
+  return onDevice != 0 ? onDevice : kChainStage;
+}
+
 /// To whom the content of a cell is visible.
 class Visibility {
  public:

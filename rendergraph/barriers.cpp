@@ -34,6 +34,14 @@ AccessPoint scopeAfter(const Epoch& epoch) {
           .access = epoch.writes() ? epoch.access & kWriteAccess : 0};
 }
 
+/// What the host writes before a submission is visible to all of it without a barrier (Vulkan 1.3, 7.9).
+void forgetHostWrite(CellState& state) {
+  if (!state.wrote || state.last.stages != VK_PIPELINE_STAGE_2_HOST_BIT) return;
+  state.last.stages = state.last.access = 0;
+  state.wrote = false;
+  state.visible = Visibility::toEverything();
+}
+
 BarrierReason reasonFor(const CellState& state, const Epoch& epoch) {
   if (state.alias) return BarrierReason::alias;
   if (state.last.stages == 0) return BarrierReason::layout;
@@ -55,6 +63,7 @@ void BarrierPlanner::findOccupants() {
   std::vector<uint8_t> fullyUsed(count, 0);
   finalScopes_.resize(count * in_.schedule.queues);
   finalSteps_.resize(count, 0);
+  changedAtEnd_.resize(count, 0);
   for (const Placement& placement : plan_.placements) {
     const uint32_t first = in_.cells.firstOf(placement.resource);
     bool full = true;
@@ -69,25 +78,49 @@ void BarrierPlanner::findOccupants() {
 
 void BarrierPlanner::noteFinalScopes(uint32_t resource, uint32_t cell) {
   const std::span<const CellUse> uses = in_.timeline.of(cell);
-  if (uses.empty()) return;
+  if (uses.empty()) return noteUnused(resource);
+  AccessPoint* scopes = &finalScopes_[static_cast<std::size_t>(resource) * in_.schedule.queues];
+  finalSteps_[resource] = std::max(finalSteps_[resource], in_.schedule.unitLast[uses.back().step]);
+  const DeclaredResource& declared = in_.declaration.resources[resource];
+  if (declared.exported && in_.options.overlappingFrames) {
+    const bool changed = uses.back().queue != 0 || (declared.isImage && declared.after.layout != uses.back().layout);
+    const bool seen = (declared.after.access & ~kWriteAccess) != 0;  // By a read, which later writes only come after.
+    if (changed && !seen) changedAtEnd_[resource] = 1;
+    if (noteExported(declared, uses, scopes[0])) return;
+  }
+  const bool forHost = declared.exported && (declared.after.stages & VK_PIPELINE_STAGE_2_HOST_BIT) != 0;
   std::size_t first = uses.size() - 1;
   if (!uses[first].writes) {
     while (first > 0 && !uses[first - 1].writes && uses[first - 1].layout == uses.back().layout) --first;
   }
   for (const CellUse& use : uses.subspan(first)) {
-    AccessPoint& scope = finalScopes_[resource * in_.schedule.queues + use.queue];
+    AccessPoint& scope = scopes[use.queue];
     scope.pass = use.lastPass;
     scope.stages |= use.stages;
-    if (use.writes) scope.access |= use.access & kWriteAccess;
-    finalSteps_[resource] = std::max(finalSteps_[resource], in_.schedule.unitLast[use.step]);
+    // A barrier to the host has made it available.
+    if (use.writes && !forHost) scope.access |= use.access & kWriteAccess;
   }
+}
+
+/// A part of an exported image that no pass uses changes its layout all the same.
+void BarrierPlanner::noteUnused(uint32_t resource) {
   const DeclaredResource& declared = in_.declaration.resources[resource];
-  if (!declared.exported || !in_.options.overlappingFrames) return;
-  // The host may still be at it when the next frame begins.
-  AccessPoint& scope = finalScopes_[resource * in_.schedule.queues];
+  if (!declared.exported || !declared.isImage || !in_.options.overlappingFrames) return;
+  const VkPipelineStageFlags2 after = declared.after.stages & ~VK_PIPELINE_STAGE_2_HOST_BIT;
+  finalScopes_[static_cast<std::size_t>(resource) * in_.schedule.queues].stages |= after != 0 ? after : kChainStage;
+}
+
+/// What the host submitted may still be at an exported resource when the next frame begins; the host itself is done
+/// by then. Returns whether waiting for that is waiting for the graph's own uses as well.
+bool BarrierPlanner::noteExported(const DeclaredResource& declared, std::span<const CellUse> uses,
+                                  AccessPoint& scope) const {
+  const bool newLayout = declared.isImage && declared.after.layout != uses.back().layout;
+  const VkPipelineStageFlags2 after = declared.after.stages & ~VK_PIPELINE_STAGE_2_HOST_BIT;
+  const bool all = after == 0 && (newLayout || uses.back().queue != 0);
   scope.pass = AccessPoint::kOutside;
-  scope.stages |= declared.after.stages;
-  scope.access |= declared.after.access & kWriteAccess;
+  scope.stages |= all ? kChainStage : after;
+  if (after != 0) scope.access |= declared.after.access & kWriteAccess;
+  return all || (after != 0 && (newLayout || uses.back().writes || writesMemory(declared.after.access)));
 }
 
 CellState BarrierPlanner::stateAfterOccupants(uint32_t resource, uint32_t queue) const {
@@ -96,10 +129,13 @@ CellState BarrierPlanner::stateAfterOccupants(uint32_t resource, uint32_t queue)
   for (const Occupant& occupant : occupants_.before(resource)) {
     // Queues other than the first learn of the frame before by a semaphore.
     elsewhere = elsewhere || (occupant.frameBefore && queue != 0);
+    // A last change of layout or owner counts as a write.
+    state.wrote = state.wrote || (occupant.frameBefore && changedAtEnd_[occupant.resource] != 0);
     for (uint32_t other = 0; other < in_.schedule.queues; ++other) {
       const AccessPoint& scope = finalScopes_[occupant.resource * in_.schedule.queues + other];
       if (scope.stages == 0) continue;
       state.last.pass = occupant.frameBefore ? AccessPoint::kOutside : scope.pass;
+      state.wrote = state.wrote || scope.access != 0;
       if (other != queue || (occupant.frameBefore && queue != 0)) {
         elsewhere = true;
         continue;
@@ -111,13 +147,14 @@ CellState BarrierPlanner::stateAfterOccupants(uint32_t resource, uint32_t queue)
     const uint32_t last = finalSteps_[occupant.resource];
     state.lastStep = state.lastStep == kNone ? last : std::max(state.lastStep, last);
   }
+  constexpr VkPipelineStageFlags2 kAll = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+  if ((state.last.stages & kAll) != 0) state.last.stages = kAll;
   if (elsewhere) {
     // Whatever stages waited for the semaphore, this chains to them.
-    state.last.stages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    state.last.stages = kAll;
     state.fixed = true;
   }
   state.alias = state.last.stages != 0;
-  state.wrote = state.last.access != 0;
   return state;
 }
 
@@ -148,7 +185,9 @@ void BarrierPlanner::planResource(uint32_t resource) {
     if (uses.empty() && (!declared.observable() || declared.retained())) continue;
     const CellState start = stateBefore(resource, uses.empty() ? 0 : uses.front().queue);
     uses_.assign(uses.begin(), uses.end());
-    addUseAfter(declared, start.layout);
+    if (const auto after =
+            useAfterGraph(declared, uses, start.layout, in_.schedule.steps(), in_.options.overlappingFrames))
+      uses_.push_back(*after);
     if (in_.schedule.severalQueues && crosses(declared)) {
       planCrossingCell(resource, cell, start);
     } else {
@@ -159,24 +198,6 @@ void BarrierPlanner::planResource(uint32_t resource) {
   all_.insert(all_.end(), found_.begin(), found_.end());
 }
 
-/// Adds what follows the graph as one more use.
-void BarrierPlanner::addUseAfter(const DeclaredResource& resource, VkImageLayout layoutBefore) {
-  if (!resource.observable()) return;
-  AccessState after = resource.retained() ? restStateOf(resource) : resource.after;
-  const VkImageLayout current = uses_.empty() ? layoutBefore : uses_.back().layout;
-  if (!resource.isImage || after.layout == VK_IMAGE_LAYOUT_UNDEFINED) after.layout = current;
-  if (after.stages == 0 && after.layout == current) return;
-  uses_.push_back({.step = in_.schedule.steps(),
-                   .pass = AccessPoint::kOutside,
-                   .lastPass = AccessPoint::kOutside,
-                   .layout = after.layout,
-                   .stages = after.stages,
-                   .access = after.access,
-                   .queue = 0,
-                   .writes = writesMemory(after.access),
-                   .needsContent = true});
-}
-
 void BarrierPlanner::planCell(uint32_t resource, uint32_t cell, const CellState& start) {
   const bool isImage = in_.declaration.resources[resource].isImage;
   CellState state = start;
@@ -184,6 +205,7 @@ void BarrierPlanner::planCell(uint32_t resource, uint32_t cell, const CellState&
     const Epoch epoch = epochAt(uses_, first);
     const bool transition = isImage && state.layout != epoch.layout();
     first += epoch.uses.size();
+    if ((epoch.stages & VK_PIPELINE_STAGE_2_HOST_BIT) == 0) forgetHostWrite(state);
     if (!transition && !state.wrote && !epoch.writes()) {
       joinReads(resource, cell, state, epoch);
       continue;
@@ -215,7 +237,10 @@ void BarrierPlanner::joinReads(uint32_t resource, uint32_t cell, CellState& stat
       if (!state.visible.covers(stage, use.access)) uncovered |= stage;
     }
     if (uncovered == 0) continue;
-    if (missing.uses.empty()) missing.uses = epoch.uses.subspan(i);
+    if (missing.uses.empty()) {
+      missing.uses = epoch.uses.subspan(i);
+      if (i > 0) state.lastStep = epoch.uses[i - 1].step;  // The barrier waits for these reads too.
+    }
     missing.stages |= uncovered;
     missing.access |= use.access;
   }
@@ -240,7 +265,10 @@ void BarrierPlanner::separate(uint32_t resource, uint32_t cell, const CellState&
   if (!transition && !state.wrote) {  // Write after read.
     access = epoch.needsContent() ? state.visible.uncovered(epoch.stages, epoch.access & ~kWriteAccess) : 0;
   }
-  const bool dropped = transition && epoch.writes() && !epoch.needsContent();
+  // Before it writes, the host waits for the device in any case.
+  const bool replaces = epoch.writes() && !epoch.needsContent();
+  if (!transition && access == 0 && epoch.stages == VK_PIPELINE_STAGE_2_HOST_BIT) return;
+  const bool dropped = transition && replaces;
   AccessPoint from = state.last;
   const bool keptFromBefore = from.stages == 0 && in_.declaration.resources[resource].retained();
   if (keptFromBefore && in_.options.overlappingFrames) from.stages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;

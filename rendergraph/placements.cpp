@@ -29,6 +29,7 @@ class Placer {
   void addAll() {
     plan_.placements.reserve(uses_.size());
     for (uint32_t index = 0; index < uses_.size(); ++index) add(index);
+    aliveFrom_.assign(plan_.placements.size(), kNone);
     aliveUntil_.assign(plan_.placements.size(), 0);
     findLives();
   }
@@ -39,7 +40,7 @@ class Placer {
       const Placement& placement = plan_.placements[index];
       items_.push_back({.size = placement.size,
                         .alignment = std::max<VkDeviceSize>(1, uses_[placement.resource].requirements.alignment),
-                        .first = schedule_.timeOf(placement.firstStep),
+                        .first = schedule_.timeOf(aliveFrom_[index]),
                         .last = schedule_.timeOf(aliveUntil_[index])});
     }
     plan_.memory.lowerBound = largestLiveSum(items_);
@@ -85,8 +86,9 @@ class Placer {
         const uint32_t found = placementOf_[declaration_.accesses[index].resource];
         if (found == kNone) continue;
         Placement& placement = plan_.placements[found];
-        placement.firstStep = std::min(placement.firstStep, first);
-        placement.lastStep = std::max(placement.lastStep, last);
+        placement.firstStep = std::min(placement.firstStep, step);
+        placement.lastStep = std::max(placement.lastStep, step);
+        aliveFrom_[found] = std::min(aliveFrom_[found], first);
         aliveUntil_[found] = std::max({aliveUntil_[found], last, submissions_.lastConcurrent[step]});
       }
     }
@@ -157,8 +159,9 @@ class Placer {
   const Submissions& submissions_;
   Plan& plan_;
   std::vector<uint32_t> placementOf_;  // By resource.
-  std::vector<uint32_t> aliveUntil_;   // By placement: step.
-  std::vector<AliasItem> items_;       // By placement.
+  /// By placement: steps. Longer than its uses where passes share a rendering or run beside each other.
+  std::vector<uint32_t> aliveFrom_, aliveUntil_;
+  std::vector<AliasItem> items_;  // By placement.
 };
 
 }  // namespace

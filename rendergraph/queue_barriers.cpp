@@ -24,10 +24,8 @@ bool onSeveralQueues(const Epoch& epoch) {
 
 /// One of the stages of a queue that have waited for the semaphore when an epoch begins: enough to chain to it.
 VkPipelineStageFlags2 waitingStage(const Epoch& epoch, uint32_t queue) {
-  const VkPipelineStageFlags2 stages = partOf(epoch, queue).stages;
-  const bool afterTheGraph = epoch.uses.front().pass == AccessPoint::kOutside;
-  const bool everything = afterTheGraph || (stages & VK_PIPELINE_STAGE_2_HOST_BIT) != 0;
-  return everything ? VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT : stages & ~(stages - 1);
+  const VkPipelineStageFlags2 stages = semaphoreStages(partOf(epoch, queue).stages);
+  return stages & ~(stages - 1);
 }
 
 }  // namespace
@@ -74,7 +72,7 @@ void BarrierPlanner::planCrossingCell(uint32_t resource, uint32_t cell, const Ce
                     .queues = std::vector<Crossing::OnQueue>(in_.schedule.queues)};
   crossing.queues[home] = {.used = true, .last = start.last, .visible = start.visible};
   for (std::size_t first = 0; first < uses_.size();) {
-    const Epoch epoch = epochAt(uses_, first, crossing.sharing == Sharing::inTurns);
+    const Epoch epoch = epochAt(uses_, first, hasOwner(crossing.sharing));
     cross(crossing, epoch);
     first += epoch.uses.size();
   }
@@ -82,11 +80,12 @@ void BarrierPlanner::planCrossingCell(uint32_t resource, uint32_t cell, const Ce
 
 void BarrierPlanner::cross(Crossing& crossing, const Epoch& epoch) {
   const bool isImage = in_.declaration.resources[crossing.resource].isImage;
-  const bool transition = isImage && crossing.layout != epoch.layout();
-  const bool owned = crossing.sharing == Sharing::exclusive || crossing.sharing == Sharing::inTurns;
-  const uint32_t family = in_.queues[crossing.lastQueue].family;
-  const bool newOwner =
-      owned && crossing.hasContent && epoch.needsContent() && in_.queues[epoch.uses.front().queue].family != family;
+  const bool otherFamily = hasOwner(crossing.sharing) && crossing.hasContent &&
+                           in_.queues[epoch.uses.front().queue].family != in_.queues[crossing.lastQueue].family;
+  const bool newOwner = otherFamily && epoch.needsContent();
+  // An image whose content is dropped changes hands by a transition from UNDEFINED.
+  const bool transition = isImage && (crossing.layout != epoch.layout() || otherFamily);
+  const bool atEnd = transition && crossing.onOneQueue() && onSeveralQueues(epoch);
   std::vector<Crossing::OnQueue> after(in_.schedule.queues);
   for (uint32_t queue = 0; queue < in_.schedule.queues; ++queue) {
     if (!has(epoch, queue)) continue;
@@ -96,19 +95,25 @@ void BarrierPlanner::cross(Crossing& crossing, const Epoch& epoch) {
                          .stages = part.stages,
                          .access = epoch.writes() ? part.access & kWriteAccess : 0};
     if (epoch.writes()) continue;
-    // A semaphore makes content visible to every kind of access.
-    const bool bySemaphore = !crossing.queues[queue].used;
+    // A semaphore makes content visible to every kind of access; a barrier after it, to what it names.
+    const bool byBarrier = newOwner || (transition && !atEnd && queue == epoch.uses.front().queue);
+    const bool bySemaphore = !crossing.queues[queue].used && !byBarrier;
     after[queue].visible = Visibility::to(part.stages, bySemaphore ? ~VkAccessFlags2{0} : part.access);
   }
   if (newOwner) {
     transferOwnership(crossing, epoch);
-  } else if (transition && crossing.onOneQueue() && onSeveralQueues(epoch)) {
+  } else if (atEnd) {
     changeLayoutAtEnd(crossing, epoch);
   } else if (transition) {
     changeLayoutBefore(crossing, epoch);
-  } else {
+  } else if (epoch.stages != 0) {
     for (uint32_t queue = 0; queue < in_.schedule.queues; ++queue) {
-      if (has(epoch, queue) && crossing.queues[queue].used) waitOnOwnQueue(crossing, epoch, queue);
+      if (!has(epoch, queue)) continue;
+      if (crossing.queues[queue].used) {
+        waitOnOwnQueue(crossing, epoch, queue);
+      } else {
+        showToHost(crossing, epoch, queue);
+      }
     }
   }
   crossing.queues = std::move(after);
@@ -158,7 +163,14 @@ void BarrierPlanner::changeLayoutAtEnd(Crossing& crossing, const Epoch& epoch) {
                        .reason = BarrierReason::layout};
   barrier.resource = crossing.resource;
   barrier.range = in_.cells.rangeOf(crossing.resource, crossing.cell);
-  found_.push_back({.step = in_.schedule.steps(), .submission = submissionAfter(crossing), .barrier = barrier});
+  const uint32_t submission = submissionAfter(crossing);
+  for (const CellUse& use : epoch.uses) {
+    // The same submission goes on with the new layout; the others wait for its end in any case.
+    const bool sameSubmission =
+        crossing.lastStep != kNone && use.step < in_.schedule.steps() && in_.submissions.of[use.step] == submission;
+    if (sameSubmission) return addCrossing(crossing, epoch, use.queue, barrier);
+  }
+  found_.push_back({.step = in_.schedule.steps(), .submission = submission, .barrier = barrier});
 }
 
 void BarrierPlanner::changeLayoutBefore(Crossing& crossing, const Epoch& epoch) {
@@ -190,6 +202,9 @@ void BarrierPlanner::waitOnOwnQueue(Crossing& crossing, const Epoch& epoch, uint
   const Crossing::OnQueue& own = crossing.queues[queue];
   const Epoch part = partOf(epoch, queue);
   if (own.last.stages == 0) return;
+  // What the host wrote is visible to all that is submitted later.
+  constexpr VkPipelineStageFlags2 kHost = VK_PIPELINE_STAGE_2_HOST_BIT;
+  if (crossing.wrote && own.last.stages == kHost && (part.stages & kHost) == 0) return;
   ImageBarrier barrier{.from = own.last,
                        .to = {.stages = part.stages, .access = part.access},
                        .oldLayout = crossing.layout,
@@ -206,6 +221,18 @@ void BarrierPlanner::waitOnOwnQueue(Crossing& crossing, const Epoch& epoch, uint
   }
   if (crossing.alias) barrier.reason = BarrierReason::alias;
   addCrossing(crossing, epoch, queue, barrier);
+}
+
+/// No semaphore reaches the host's own stage.
+void BarrierPlanner::showToHost(Crossing& crossing, const Epoch& epoch, uint32_t queue) {
+  const Epoch part = partOf(epoch, queue);
+  if ((part.stages & VK_PIPELINE_STAGE_2_HOST_BIT) == 0 || !(epoch.needsContent() || crossing.wrote)) return;
+  addCrossing(crossing, epoch, queue,
+              {.from = {.pass = crossing.queues[crossing.lastQueue].last.pass, .stages = waitingStage(epoch, queue)},
+               .to = {.stages = VK_PIPELINE_STAGE_2_HOST_BIT, .access = part.access},
+               .oldLayout = crossing.layout,
+               .newLayout = epoch.layout(),
+               .reason = BarrierReason::readAfterWrite});
 }
 
 /// Before the epoch's first use on a queue. It stays there: earlier, the queue might not have waited yet.

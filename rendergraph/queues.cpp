@@ -80,7 +80,9 @@ std::vector<Sharing> sharingOf(const Declaration& declaration, const Cells& cell
         for (const CellUse& use : epoch.uses) {
           if (family == kNone) family = queues[use.queue].family;
           severalFamilies = severalFamilies || queues[use.queue].family != family;
-          severalAtOnce = severalAtOnce || use.queue != epoch.uses.front().queue;
+          // The host is no queue that could own it in between.
+          const bool host = (use.stages & VK_PIPELINE_STAGE_2_HOST_BIT) != 0;
+          severalAtOnce = severalAtOnce || host || use.queue != epoch.uses.front().queue;
         }
         first += epoch.uses.size();
       }

@@ -28,6 +28,11 @@ enum class Sharing : uint8_t {
                ///< cannot make it anew, so the families read it one after the other.
 };
 
+/// Whether it belongs to one family at a time.
+inline bool hasOwner(Sharing sharing) {
+  return sharing == Sharing::exclusive || sharing == Sharing::inTurns;
+}
+
 /// By resource. Empty when all steps are on queue 0.
 std::vector<Sharing> sharingOf(const Declaration& declaration, const Cells& cells, const Timeline& timeline,
                                const Schedule& schedule, std::span<const QueueFacts> queues);

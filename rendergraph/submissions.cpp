@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "rendergraph/barrier_scopes.h"
 #include "rendergraph/cells.h"
 #include "rendergraph/declaration.h"
 #include "rendergraph/schedule.h"
@@ -34,13 +35,18 @@ class Dependencies {
   Dependencies(const Declaration& declaration, const Schedule& schedule, bool overlappingFrames)
       : declaration_(declaration), schedule_(schedule), overlappingFrames_(overlappingFrames) {}
 
-  void addCell(const DeclaredResource& resource, std::span<const CellUse> uses, bool inTurns) {
-    if (uses.empty()) return;
+  void addCell(const DeclaredResource& resource, std::span<const CellUse> inGraph, bool oneOwner) {
+    if (inGraph.empty()) return;
+    uses_.assign(inGraph.begin(), inGraph.end());
+    const VkImageLayout before = resource.retained() ? restStateOf(resource).layout : resource.before.layout;
+    if (const auto after = useAfterGraph(resource, inGraph, before, schedule_.steps(), overlappingFrames_))
+      uses_.push_back(*after);
+    const std::span<const CellUse> uses = uses_;
     Epoch previous;
     for (std::size_t first = 0; first < uses.size();) {
-      const Epoch epoch = epochAt(uses, first, inTurns);
+      const Epoch epoch = epochAt(uses, first, oneOwner);
       if (first == 0) {
-        if (!resource.created() || overlappingFrames_) addFromBefore(epoch);
+        if (needsBefore(resource, epoch)) addFromBefore(epoch);
       } else {
         connect(previous, epoch);
       }
@@ -60,21 +66,23 @@ class Dependencies {
 
  private:
   bool isHost(uint32_t step) const { return declaration_.passes[schedule_.order[step]].kind == PassKind::host; }
-  /// The host's own stage cannot wait for a semaphore.
-  static VkPipelineStageFlags2 waitingStages(VkPipelineStageFlags2 stages) {
-    return (stages & VK_PIPELINE_STAGE_2_HOST_BIT) != 0 ? VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT : stages;
+  /// Whether the first use relies on what queue 0 did before. The host has waited unless frames overlap.
+  bool needsBefore(const DeclaredResource& resource, const Epoch& epoch) const {
+    if (overlappingFrames_) return true;
+    if (resource.created()) return false;
+    return epoch.needsContent() || (resource.imported() && resource.before.stages != 0);
   }
   void addFromBefore(const Epoch& epoch) {
     forFirstOnEachQueue(epoch, [&](const CellUse& use) {
-      if (use.queue != 0) all_.push_back({kBefore, use.step, partOf(epoch, use.queue).stages});
+      if (use.queue != 0) all_.push_back({kBefore, use.step, semaphoreStages(partOf(epoch, use.queue).stages)});
     });
   }
   void connect(const Epoch& before, const Epoch& after) {
     forFirstOnEachQueue(after, [&](const CellUse& to) {
-      const VkPipelineStageFlags2 stages = waitingStages(partOf(after, to.queue).stages);
+      const VkPipelineStageFlags2 stages = semaphoreStages(partOf(after, to.queue).stages);
       forLastOnEachQueue(before, [&](const CellUse& from) {
-        // What the host did is done before anything later is submitted.
-        if (from.queue == to.queue || isHost(from.step)) return;
+        // What the host wrote is visible to all that is submitted later.
+        if (from.queue == to.queue || (from.writes && isHost(from.step))) return;
         all_.push_back({schedule_.unitLast[from.step], to.step, stages});
       });
       // The first of several readers on different queues changes the layout when several had it before.
@@ -111,6 +119,7 @@ class Dependencies {
   const Schedule& schedule_;
   bool overlappingFrames_;
   std::vector<Dependency> all_;
+  std::vector<CellUse> uses_;  // Of the current cell.
 };
 
 /// Vector clocks. A time is a number of steps of a queue's future: step + 2, where 1 stands for kBefore.
@@ -124,8 +133,9 @@ class Clocks {
     known_[0].time = timeOf(kBefore);  // Queue 0 itself comes after it.
   }
 
+  /// One past the last step stands for what follows the graph, on queue 0.
   void wait(const Dependency& dependency) {
-    const uint32_t queue = schedule_.queue[dependency.to];
+    const uint32_t queue = dependency.to < schedule_.steps() ? schedule_.queue[dependency.to] : 0;
     const uint32_t source = dependency.from == kBefore ? 0 : schedule_.queue[dependency.from];
     Known& known = knownBy(queue, source);
     if (known.time >= timeOf(dependency.from)) {
@@ -146,6 +156,22 @@ class Clocks {
     knownBy(queue, queue).time = timeOf(step);
     for (uint32_t other = 0; other < queues_; ++other) {
       atStep_[static_cast<std::size_t>(step) * queues_ + other] = knownBy(queue, other).time;
+    }
+  }
+
+  /// Makes what follows the graph wait for every queue.
+  void waitForAll() {
+    std::vector<Dependency> last;
+    for (uint32_t step = schedule_.steps(); step-- > 0;) {
+      const uint32_t queue = schedule_.queue[step];
+      const bool found =
+          std::any_of(last.begin(), last.end(), [&](const Dependency& d) { return schedule_.queue[d.from] == queue; });
+      if (queue != 0 && !found) last.push_back({step, schedule_.steps(), 0});
+    }
+    for (const Dependency& dependency : last) {
+      const auto before = waits.size();
+      wait(dependency);
+      if (waits.size() > before) waits.back().stages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
     }
   }
 
@@ -172,6 +198,8 @@ std::vector<Wait> findWaits(const Schedule& schedule, const std::vector<Dependen
     for (; next != dependencies.end() && next->to == step; ++next) clocks.wait(*next);
     clocks.finish(step);
   }
+  for (; next != dependencies.end(); ++next) clocks.wait(*next);
+  clocks.waitForAll();
   return std::move(clocks.waits);
 }
 
@@ -202,11 +230,8 @@ class Cutter {
       if (signals_[step]) open_[queue] = kNone;
       if (host) std::fill(open_.begin(), open_.end(), kNone);
     }
-    if (several) {
-      addEnd();
-    } else if (open_[0] == kNone) {
-      begin(0);
-    }
+    if (several || open_[0] == kNone) begin(0);
+    for (; wait < waits_.size(); ++wait) addWait(open_[0], waits_[wait]);
     collect(stepsInOrder);
     return std::move(result_);
   }
@@ -223,16 +248,6 @@ class Cutter {
   void addWait(uint32_t submission, const Wait& wait) {
     const uint32_t source = wait.from == kBefore ? 0 : result_.of[wait.from];
     waitsOf_[submission].push_back({.submission = source, .stages = wait.stages});
-  }
-  /// The last submission waits for the last one of every other queue.
-  void addEnd() {
-    std::vector<uint32_t> last(schedule_.queues, kNone);
-    for (uint32_t i = 0; i < result_.list.size(); ++i) last[result_.list[i].queue] = i;
-    begin(0);
-    for (uint32_t queue = 1; queue < schedule_.queues; ++queue) {
-      if (last[queue] == kNone) continue;
-      waitsOf_.back().push_back({.submission = last[queue], .stages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT});
-    }
   }
   void collect(std::vector<uint32_t>& stepsInOrder) {
     for (std::size_t i = 0; i < result_.list.size(); ++i) {
@@ -311,7 +326,7 @@ Submissions planSubmissions(const Declaration& declaration, const Cells& cells, 
     for (uint32_t resource = 0; resource < declaration.resources.size(); ++resource) {
       const uint32_t first = cells.firstOf(resource);
       for (uint32_t cell = first; cell < first + cells.countOf(resource); ++cell) {
-        dependencies.addCell(declaration.resources[resource], timeline.of(cell), sharing[resource] == Sharing::inTurns);
+        dependencies.addCell(declaration.resources[resource], timeline.of(cell), hasOwner(sharing[resource]));
       }
     }
     waits = findWaits(schedule, std::move(dependencies).sorted());

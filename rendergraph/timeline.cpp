@@ -1,6 +1,7 @@
 // Sorts the uses of all cells by counting.
 #include "rendergraph/timeline.h"
 
+#include "rendergraph/barrier_scopes.h"
 #include "rendergraph/cells.h"
 #include "rendergraph/declaration.h"
 #include "rendergraph/schedule.h"
@@ -36,10 +37,36 @@ Timeline::Timeline(const Declaration& declaration, const Cells& cells, const Sch
         use.needsContent = use.needsContent || (access.needsContent() && use.pass == pass);
         use.writes = use.writes || access.writes();
         use.stages |= access.stages;
-        use.access |= access.access;
+        // What they load or blend with was written in the rendering itself.
+        const bool inside = use.pass != pass && access.role != AttachmentRole::none;
+        use.access |= inside ? access.access & kWriteAccess : access.access;
       });
     }
   }
+}
+
+std::optional<CellUse> useAfterGraph(const DeclaredResource& resource, std::span<const CellUse> uses,
+                                     VkImageLayout layoutBefore, uint32_t steps, bool overlappingFrames) {
+  if (!resource.observable()) return std::nullopt;
+  AccessState after = resource.retained() ? restStateOf(resource) : resource.after;
+  const VkImageLayout current = uses.empty() ? layoutBefore : uses.back().layout;
+  if (!resource.isImage || after.layout == VK_IMAGE_LAYOUT_UNDEFINED) after.layout = current;
+  const bool elsewhere = !uses.empty() && uses.back().queue != 0;  // Queue 0 owns it in the end.
+  if (after.stages == 0 && after.layout == current && !elsewhere) return std::nullopt;
+  // A change of layout or owner is a write, which the next frame's first use must find a stage to wait for at.
+  const bool changed = elsewhere || after.layout != current;
+  if (overlappingFrames && resource.created() && changed && (after.stages & ~VK_PIPELINE_STAGE_2_HOST_BIT) == 0) {
+    after.stages |= kChainStage;
+  }
+  return CellUse{.step = steps,
+                 .pass = AccessPoint::kOutside,
+                 .lastPass = AccessPoint::kOutside,
+                 .layout = after.layout,
+                 .stages = after.stages,
+                 .access = after.access,
+                 .queue = 0,
+                 .writes = writesMemory(after.access),
+                 .needsContent = true};
 }
 
 }  // namespace rendergraph

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -14,6 +15,7 @@
 namespace rendergraph {
 
 struct Declaration;
+struct DeclaredResource;
 struct Schedule;
 class Cells;
 
@@ -42,6 +44,11 @@ class Timeline {
   std::vector<uint32_t> starts_, ends_;
   std::vector<CellUse> uses_;
 };
+
+/// What follows the graph, as a use by queue 0 after the last step; none when nobody asks for anything.
+/// `layoutBefore`: the layout before the first of `uses`, which are all of the cell.
+std::optional<CellUse> useAfterGraph(const DeclaredResource& resource, std::span<const CellUse> uses,
+                                     VkImageLayout layoutBefore, uint32_t steps, bool overlappingFrames);
 
 /// One write, or a run of reads in one layout: inside it, nothing has to be ordered.
 struct Epoch {

@@ -115,8 +115,8 @@ class Memory {
     }
     expect(plan_.memory.peakBytes == heaps, "the reported peak is not the sum of the heaps");
     expect(plan_.memory.unaliasedBytes >= sizes, "the reported unaliased bytes are fewer than the sum of the sizes");
-    // Memory that changes hands between groups of passes only, or not between queues, counts as alive for longer.
-    const bool longer = setting_.options.order == Order::fewestBatches ||
+    // Memory that changes hands between groups of passes or renderings only, or not between queues, counts as alive for longer.
+    const bool longer = setting_.options.order == Order::fewestBatches || setting_.options.mergeRasterPasses ||
                         std::any_of(plan_.submissions.begin(), plan_.submissions.end(),
                                     [](const PlannedSubmission& submission) { return submission.queue != 0; });
     expect(longer ? plan_.memory.lowerBound >= bound : plan_.memory.lowerBound == bound,

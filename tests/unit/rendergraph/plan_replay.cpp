@@ -118,13 +118,14 @@ void PlanReplay::findPredecessors() {
 }
 
 PlanReplay::RecordTable PlanReplay::nothingLeft() const {
-  return RecordTable(order_.frames(), std::vector<std::vector<Record>>(replays_.size()));
+  return RecordTable(order_.frames(), std::vector<ResourceReplay::Left>(replays_.size()));
 }
 
 std::vector<Record> PlanReplay::inherited(uint32_t frame, uint32_t resource, const RecordTable& remaining) const {
   std::vector<Record> result;
   for (const Occupant& occupant : before_[frame][resource]) {
-    for (const Record& record : remaining[occupant.frame][occupant.resource]) {
+    const ResourceReplay::Left& left = remaining[occupant.frame][occupant.resource];
+    for (const Record& record : occupant.frame == frame ? left.now : left.atFrameEnd) {
       if (std::find(result.begin(), result.end(), record) == result.end()) result.push_back(record);
     }
   }
@@ -133,7 +134,8 @@ std::vector<Record> PlanReplay::inherited(uint32_t frame, uint32_t resource, con
 
 std::vector<Finding> PlanReplay::run() {
   std::vector<Finding> findings = overlaps_;
-  remaining_ = inherited_ = nothingLeft();
+  remaining_ = nothingLeft();
+  inherited_.assign(order_.frames(), std::vector<std::vector<Record>>(replays_.size()));
   faulty_.assign(replays_.size(), false);
   for (uint32_t frame = 0; frame < order_.frames(); ++frame) {
     for (uint32_t i : sequence_) {
@@ -147,11 +149,24 @@ std::vector<Finding> PlanReplay::run() {
 }
 
 bool PlanReplay::holds(uint32_t resource, const Change& change) {
-  for (uint32_t frame = 0; frame < order_.frames(); ++frame) {
-    replays_[resource].run(frame, inherited_[frame][resource], nullptr, change);
-    if (replays_[resource].failed()) return false;
+  replays_[resource].run(0, inherited_[0][resource], nullptr, change);
+  if (replays_[resource].failed()) return false;
+  if (order_.frames() == 1) return true;
+  // What it leaves now concerns those who take over its memory in the next frame, itself among them.
+  ResourceReplay::Left left = replays_[resource].remaining();
+  std::swap(left, remaining_[0][resource]);
+  bool holding = true;
+  for (uint32_t i = 0; i < replays_.size() && holding; ++i) {
+    const std::vector<Occupant>& before = before_[1][i];
+    const bool heir = std::any_of(before.begin(), before.end(), [&](const Occupant& occupant) {
+      return occupant.frame == 0 && occupant.resource == resource;
+    });
+    if (i != resource && !heir) continue;
+    replays_[i].run(1, inherited(1, i, remaining_), nullptr, i == resource ? change : Change{});
+    holding = !replays_[i].failed();
   }
-  return true;
+  std::swap(left, remaining_[0][resource]);
+  return holding;
 }
 
 bool PlanReplay::holds(const std::vector<Wait>& waits, uint32_t from) {
@@ -161,8 +176,8 @@ bool PlanReplay::holds(const std::vector<Wait>& waits, uint32_t from) {
   bool holding = order_.edgesHold();
   for (uint32_t frame = 0; frame < order_.frames() && holding; ++frame) {
     for (uint32_t i : sequence_) {
-      const bool past =
-          !setting_.declaration.resources[i].observable() && replays_[i].lastKey() < order_.keyBegin(from);
+      const bool past = order_.frames() == 1 && !setting_.declaration.resources[i].observable() &&
+                        replays_[i].lastKey() < order_.keyBegin(from);
       if (frame == 0 && past) {
         remaining[0][i] = remaining_[0][i];
         continue;

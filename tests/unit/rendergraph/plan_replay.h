@@ -31,7 +31,7 @@ class PlanReplay {
   ResourceReplay& of(uint32_t resource) { return replays_[resource]; }
 
  private:
-  using RecordTable = std::vector<std::vector<std::vector<Record>>>;  // By frame and resource.
+  using RecordTable = std::vector<std::vector<ResourceReplay::Left>>;  // By frame and resource.
   struct Occupant {
     uint32_t frame, resource;
   };
@@ -43,9 +43,10 @@ class PlanReplay {
   const Setting& setting_;
   PlanOrder order_;
   std::vector<ResourceReplay> replays_;
-  std::vector<uint32_t> sequence_;                          // Resources, by first use.
-  std::vector<std::vector<std::vector<Occupant>>> before_;  // By frame and resource: earlier owners of its memory.
-  RecordTable inherited_, remaining_;
+  std::vector<uint32_t> sequence_;                           // Resources, by first use.
+  std::vector<std::vector<std::vector<Occupant>>> before_;   // By frame and resource: earlier owners of its memory.
+  std::vector<std::vector<std::vector<Record>>> inherited_;  // By frame and resource.
+  RecordTable remaining_;
   std::vector<bool> faulty_;  // By resource.
   std::vector<Finding> overlaps_;
 };

@@ -39,10 +39,7 @@ void ResourceReplay::run(uint32_t frame, const std::vector<Record>& inherited, s
   exclusive_ = !concurrent_ || change.exclusive;
   now_ = frame * order_.span();
   start(inherited);
-  auto milestone = order_.milestones().begin();
-  const auto passUntil = [&](uint32_t key) {
-    for (; milestone != order_.milestones().end() && milestone->key < key; ++milestone) pass(*milestone);
-  };
+  nextMilestone_ = 0;
   for (const Op& op : ops_) {
     passUntil(op.key);
     now_ = frame * order_.span() + op.key;
@@ -123,6 +120,13 @@ void ResourceReplay::addHostRecords(Subresource& subresource) const {
   content.hostVisible = access;
   content.hostNode = content.node;
   subresource.records.push_back(content);
+}
+
+void ResourceReplay::passUntil(uint32_t key) {
+  const std::vector<Wait>& milestones = order_.milestones();
+  for (; nextMilestone_ < milestones.size() && milestones[nextMilestone_].key < key; ++nextMilestone_) {
+    pass(milestones[nextMilestone_]);
+  }
 }
 
 void ResourceReplay::pass(const Wait& milestone) {
@@ -401,11 +405,20 @@ void ResourceReplay::finish(Subresource& subresource) {
   use.add(stageMask(after.stages), accessMask(after.access));
   const StepUse at{.step = end, .queue = 0, .submission = last};
   for (Record& record : subresource.records) checkAgainst(record, use, at, order_.node(frame_, last));
-  // Before the next frame the host has used it in this way.
-  if (declared_.created()) leave(subresource, use, at, AccessPoint::kOutside);
+  // Before the next frame the host's device has used it in this way. The host itself is done when it submits that.
+  use.stages &= ~kHostStage;
+  if (declared_.created() && use.stages != 0) leave(subresource, use, at, AccessPoint::kOutside);
 }
 
-std::vector<Record> ResourceReplay::remaining() const {
+ResourceReplay::Left ResourceReplay::remaining() {
+  Left left{.now = records(), .atFrameEnd = {}};
+  if (order_.frames() == 1) return left;
+  passUntil(order_.span());
+  left.atFrameEnd = records();
+  return left;
+}
+
+std::vector<Record> ResourceReplay::records() const {
   std::vector<Record> result;
   for (const Subresource& subresource : subresources_) {
     if (!subresource.touched) continue;

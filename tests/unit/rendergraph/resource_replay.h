@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -76,7 +77,11 @@ class ResourceReplay {
   /// Whether every subresource was used, and so has waited for the earlier owners of its memory.
   bool usedThroughout() const;
   /// What later owners of the memory have to respect.
-  std::vector<Record> remaining() const;
+  struct Left {
+    std::vector<Record> now;         ///< For those who follow in the frame.
+    std::vector<Record> atFrameEnd;  ///< After all waits of the frame, for the next one.
+  };
+  Left remaining();
 
  private:
   /// One mip of one layer of one aspect, or a buffer.
@@ -133,6 +138,8 @@ class ResourceReplay {
   uint32_t familyOf(uint32_t queue) const { return setting_.device.queues()[queue].family; }
 
   void pass(const Wait& milestone);
+  void passUntil(uint32_t key);
+  std::vector<Record> records() const;
   void apply(const Op& op, const Change& change);
   void setEvent(const Placed& placed, const rendergraph::ImageBarrier& barrier, uint32_t index);
   void applyBarrier(Subresource& subresource, const Placed& placed, const rendergraph::ImageBarrier& barrier,
@@ -169,6 +176,7 @@ class ResourceReplay {
 
   // Of the run:
   std::vector<Subresource> subresources_;
+  std::size_t nextMilestone_ = 0;
   std::vector<Finding>* findings_ = nullptr;
   bool failed_ = false, exclusive_ = true;
   uint32_t frame_ = 0, now_ = 0;
