@@ -22,7 +22,7 @@ class TwoFamilies : public PlanChecker {
   Plan plan(std::initializer_list<SubmissionWait> waits = {{1, kFragment}}) const {
     return PlanMaker(graph, device)
         .submission(0)
-        .submission(1, {{0, kCompute}})
+        .submission(1)
         .step(write, {change(image, kNothing, kUndefined, at(kCompute, kStorageWrite), kGeneral)})
         .atEnd({release})
         .submission(0, waits)
@@ -51,9 +51,9 @@ TEST_F(TwoFamilies, EveryFaultOfTheTransferIsFound) {
   expectHazard(
       right, [](Plan& p) { p.imageBarriers[2].from.stages = kColor; }, Hazard::ownership);
   expectHazard(
-      right, [](Plan& p) { p.submissionWaits[1].stages = kColor; }, Hazard::ownership);
+      right, [](Plan& p) { p.submissionWaits[0].stages = kColor; }, Hazard::ownership);
   expectHazard(
-      right, [](Plan& p) { p.submissionWaits[1].submission = 0; }, Hazard::structure);
+      right, [](Plan& p) { p.submissionWaits[0].submission = 0; }, Hazard::structure);
   expectHazard(
       right, [](Plan& p) { p.imageBarriers[1].from.stages = kFragment; }, Hazard::structure);
   expectHazard(
@@ -76,7 +76,7 @@ TEST_F(TwoFamilies, BarriersOfOneFamilyTransferNothing) {
   const Plan simple =
       PlanMaker(graph, device)
           .submission(0)
-          .submission(1, {{0, kCompute}})
+          .submission(1)
           .step(write, {change(image, kNothing, kUndefined, at(kCompute, kStorageWrite), kGeneral)})
           .submission(0, {{1, kFragment}})
           .step(sample, {change(image, at(kFragment), kGeneral, at(kFragment, kSampledRead), kReadOnly)})
@@ -90,7 +90,7 @@ TEST_F(TwoFamilies, TheChangeOfLayoutMayBeAtTheEndOfTheFirstHalf) {
   device = TestDevice({TestDevice::kAll, TestDevice::kAll});
   expectExact(PlanMaker(graph, device)
                   .submission(0)
-                  .submission(1, {{0, kCompute}})
+                  .submission(1)
                   .step(write, {change(image, kNothing, kUndefined, at(kCompute, kStorageWrite), kGeneral)})
                   .atEnd({change(image, at(kCompute, kStorageWrite), kGeneral, kNothing, kReadOnly)})
                   .submission(0, {{1, kFragment}})
@@ -145,7 +145,7 @@ TEST_F(PlanChecker, QueuesAreNotOrderedByTheList) {
       planWith({{0, kCompute}}), [](Plan& p) { p.submissionWaits[0].stages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT; },
       Hazard::writeAfterRead);
   expectHazard(
-      planWith({}), [](Plan&) {}, Hazard::structure);
+      planWith({}), [](Plan&) {}, Hazard::writeAfterRead);
 }
 
 TEST_F(PlanChecker, RetainedResourcesRestOnTheFirstQueue) {
@@ -210,7 +210,7 @@ TEST_F(PlanChecker, TheListIsInOrder) {
                         .step(write, {change(image, kNothing, kUndefined, at(kCompute, kStorageWrite), kGeneral)})
                         .submission(0, {{1, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT}})
                         .finish();
-  expectExact(plan, 4);
+  EXPECT_TRUE(hazards(plan).empty());
   const std::function<void(Plan&)> faults[] = {[](Plan& p) { p.submissionWaits[0].submission = 2; },
                                                [](Plan& p) { p.submissionWaits[0].stages = 0; },
                                                [](Plan& p) { p.submissionWaits[0].stages = kFragment; },
