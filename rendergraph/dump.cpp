@@ -9,6 +9,7 @@
 #include "rendergraph/declared_names.h"
 #include "rendergraph/graph.h"
 #include "rendergraph/json_text.h"
+#include "rendergraph/memory_notes.h"
 #include "rendergraph/vulkan_names.h"
 
 namespace rendergraph {
@@ -147,13 +148,15 @@ void writeBatchJson(std::ostream& out, const Words& words, const Plan& plan, con
   out << "]";
 }
 
-void writeResourcesJson(std::ostream& out, const Declaration& declaration) {
+void writeResourcesJson(std::ostream& out, const Declaration& declaration, const Plan& plan) {
+  const std::vector<std::string> notes = memoryNotes(declaration, plan);
   out << "  \"resources\": [";
   const char* separator = "\n";
-  for (const DeclaredResource& resource : declaration.resources) {
+  for (std::size_t i = 0; i < notes.size(); ++i) {
+    const DeclaredResource& resource = declaration.resources[i];
     out << separator << "    {\"name\": " << jsonString(resource.name)
         << ", \"origin\": " << jsonString(nameOf(resource.origin))
-        << ", \"exported\": " << (resource.exported ? "true" : "false");
+        << ", \"exported\": " << (resource.exported ? "true" : "false") << ", \"memory\": " << jsonString(notes[i]);
     if (resource.isImage) {
       const ImageDesc& desc = resource.image;
       out << ", \"format\": " << static_cast<int>(desc.format) << ", \"width\": " << desc.width
@@ -252,7 +255,7 @@ void writeDot(std::ostream& out, const Graph& graph, const Plan& plan) {
 void writeJson(std::ostream& out, const Graph& graph, const Plan& plan) {
   const Words words(graph.declaration());
   out << "{\n";
-  writeResourcesJson(out, graph.declaration());
+  writeResourcesJson(out, graph.declaration(), plan);
   writePassesJson(out, words, plan);
   writeMemoryJson(out, words, plan);
   out << "}\n";

@@ -240,7 +240,7 @@ struct Fields {
   QueuePreference queue = QueuePreference::graphics;
   VkExtent2D area = {8, 8};
   uint32_t areaLayers = 1;
-  bool sideEffect = true, exported = true, persistent = false, modify = false, extraRead = false;
+  bool sideEffect = true, exported = true, persistent = false, modify = false, extraRead = false, disabled = false;
   const char* name = "image";
   float clear = 0.0f;
   CompileOptions options;
@@ -266,6 +266,7 @@ struct Fields {
         raster.color(graph.createImage("e", target), {.load = load, .clear = {{clear, 0, 0, 0}}});
     Pass stores = graph.addPass("stores", PassKind::raster);
     stores.renderArea(area, areaLayers);
+    graph.addPass("optional", PassKind::compute).onlyIf(!disabled);
     if (exported) graph.exportImage(a, after);
     return structuralHash(graph.declaration(), options);
   }
@@ -314,6 +315,12 @@ TEST(StructuralHash, MissesNoFieldThatThePlanDependsOn) {
       {"another access", [](Fields& f) { f.extraRead = true; }},
       {"order", [](Fields& f) { f.options.order = Order::leastMemory; }},
       {"memory budget", [](Fields& f) { f.options.memoryBudget = 1.5f; }},
+      {"disabled", [](Fields& f) { f.disabled = true; }},
+      {"barrier placement", [](Fields& f) { f.options.barriers = BarrierPlacement::fewestBatches; }},
+      {"split distance", [](Fields& f) { f.options.splitDistance = 2; }},
+      {"merging", [](Fields& f) { f.options.mergeRasterPasses = false; }},
+      {"queues", [](Fields& f) { f.options.useQueues = false; }},
+      {"overlapping frames", [](Fields& f) { f.options.overlappingFrames = true; }},
       {"aliasing none", [](Fields& f) { f.options.aliasing = Aliasing::none; }},
       {"aliasing fast", [](Fields& f) { f.options.aliasing = Aliasing::fast; }},
   };
