@@ -116,15 +116,6 @@ class NumberedFrames {
   uint32_t size_ = 0;
 };
 
-/// Whether plans order a frame after the one before it. Without, frames must not overlap.
-bool canOverlap() {
-  Graph graph;
-  declareFrame(graph, 1.0f);
-  const rendergraph::NominalDevice device;
-  return rendergraph::compile(graph.declaration(), {.overlappingFrames = true}, device) !=
-         rendergraph::compile(graph.declaration(), {}, device);
-}
-
 /// Resident memory of this process, bytes.
 std::size_t residentBytes() {
   std::ifstream statm("/proc/self/statm");
@@ -165,7 +156,6 @@ TEST_F(ExecutorOnDevice, GivesTheSamePictureHoweverManyThreadsRecord) {
 // ---- Frames
 
 TEST_F(ExecutorOnDevice, EachFrameInFlightFindsWhatTheFrameBeforeLeft) {
-  if (!canOverlap()) GTEST_SKIP() << "compile() does not know overlappingFrames";
   for (const uint32_t framesInFlight : {1u, 2u, 4u}) {
     NumberedFrames frames(support::device(), framesInFlight);
     for (int i = 0; i < 40; ++i) frames.next();
@@ -173,13 +163,11 @@ TEST_F(ExecutorOnDevice, EachFrameInFlightFindsWhatTheFrameBeforeLeft) {
 }
 
 TEST_F(ExecutorOnDevice, FramesOfChangingSizeOverlap) {
-  if (!canOverlap()) GTEST_SKIP() << "compile() does not know overlappingFrames";
   NumberedFrames frames(support::device(), 3);
   for (uint32_t i = 0; i < 40; ++i) frames.next(16 + 8 * (i / 3 % 5));
 }
 
 TEST_F(ExecutorOnDevice, ExecutorsTakeTurnsWithFramesInFlight) {
-  if (!canOverlap()) GTEST_SKIP() << "compile() does not know overlappingFrames";
   NumberedFrames first(support::device(), 2), second(support::device(), 3);
   for (uint32_t i = 0; i < 30; ++i) {
     first.next();
@@ -212,7 +200,7 @@ TEST_F(ExecutorOnDevice, AGraphMovesFromOneDeviceToAnother) {
 TEST_F(ExecutorOnDevice, ReconfigurationsLeaveNoMemoryBehind) {
   std::size_t settled = 0;
   {
-    NumberedFrames frames(support::device(), canOverlap() ? 2 : 1);
+    NumberedFrames frames(support::device(), 2);
     for (uint32_t i = 0; i < 150; ++i) {
       frames.next(64 + 16 * (i * 7 % 23));
       // Three plans keep their objects, two frames fly: some MiB at most, whatever came before.
