@@ -27,7 +27,7 @@ struct Chunk {
   CommandStream commands;
 };
 
-struct Timeline {
+struct QueueTimeline {
   OwnedTimeline semaphore;
   uint64_t value = 0;  // Of the last submission that was accepted.
 };
@@ -39,7 +39,7 @@ struct ExecutorState {
   // Declared in the order in which things may use one another; destroyed the other way round.
   Backend& backend;
   ExecutorOptions options;
-  std::vector<Timeline> timelines;  // By queue; made with the first submission.
+  std::vector<QueueTimeline> timelines;  // By queue; made with the first submission.
   Graveyard graveyard;
   HeapPool pool;
   PlanCache plans{graveyard};

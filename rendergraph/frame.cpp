@@ -173,7 +173,7 @@ void Frame::recordSegment(uint32_t first, uint32_t last) {
 
 void Frame::submit(uint32_t submission, std::span<const Chunk> chunks) {
   const PlannedSubmission& planned = state_.current->plan.submissions[submission];
-  Timeline& timeline = state_.timelines[planned.queue];
+  QueueTimeline& timeline = state_.timelines[planned.queue];
   state_.buffers.clear();
   for (const Chunk& chunk : chunks) {
     if (chunk.commands.buffer == VK_NULL_HANDLE) continue;
