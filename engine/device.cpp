@@ -39,6 +39,7 @@ const NeededFeature kNeeded[] = {
     {"timelineSemaphore", [](Features& f) -> VkBool32& { return f.v12.timelineSemaphore; }},
     {"hostQueryReset", [](Features& f) -> VkBool32& { return f.v12.hostQueryReset; }},
     {"geometryShader", [](Features& f) -> VkBool32& { return f.core.features.geometryShader; }},
+    {"shaderClipDistance", [](Features& f) -> VkBool32& { return f.core.features.shaderClipDistance; }},
     {"fragmentStoresAndAtomics", [](Features& f) -> VkBool32& { return f.core.features.fragmentStoresAndAtomics; }},
 };
 

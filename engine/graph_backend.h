@@ -98,6 +98,8 @@ class GraphBackend final : public rendergraph::Backend {
                          const VkBufferImageCopy& region) override;
   void copyBuffer(const CommandStream& commands, VkBuffer from, VkBuffer to, VkDeviceSize bytes) override;
   void fillBuffer(const CommandStream& commands, VkBuffer to, uint32_t word) override;
+  void updateBuffer(const CommandStream& commands, VkBuffer to, VkDeviceSize offset,
+                    std::span<const std::byte> bytes) override;
   void clearImage(const CommandStream& commands, VkImage image, const VkClearColorValue& value,
                   const VkImageSubresourceRange& range) override;
   void clearDepthImage(const CommandStream& commands, VkImage image, float depth,

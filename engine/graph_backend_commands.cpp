@@ -138,6 +138,11 @@ void GraphBackend::fillBuffer(const CommandStream& commands, VkBuffer to, uint32
   device_.vk().vkCmdFillBuffer(commands.buffer, to, 0, VK_WHOLE_SIZE, word);
 }
 
+void GraphBackend::updateBuffer(const CommandStream& commands, VkBuffer to, VkDeviceSize offset,
+                                std::span<const std::byte> bytes) {
+  device_.vk().vkCmdUpdateBuffer(commands.buffer, to, offset, bytes.size(), bytes.data());
+}
+
 void GraphBackend::clearImage(const CommandStream& commands, VkImage image, const VkClearColorValue& value,
                               const VkImageSubresourceRange& range) {
   device_.vk().vkCmdClearColorImage(commands.buffer, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &value, 1, &range);

@@ -9,6 +9,8 @@
 #include "engine/commands.h"
 #include "engine/raster_pipeline.h"
 #include "engine/scene_constants.h"
+#include "spirv/scene/layer_radiance_frag.h"
+#include "spirv/scene/layers_geom.h"
 #include "spirv/scene/opaque_radiance_frag.h"
 #include "spirv/scene/scene_vert.h"
 #include "spirv/scene/transparent_list_frag.h"
@@ -32,18 +34,37 @@ constexpr std::array<BindingKind, 5> kSceneBindings = {BindingKind::storageBuffe
                                                        BindingKind::storageBuffer, BindingKind::uniformBuffer,
                                                        BindingKind::sampledImage};
 
-rendergraph::SpirV fragmentOf(SceneEmit emit) {
+/// How an emit is drawn.
+struct EmitTraits {
+  const char* name;
+  rendergraph::SpirV geometry, fragment;
+  bool blended = false;  ///< Draws the alpha-blended surfaces, else all others.
+  bool writesDepth = true;
+};
+
+EmitTraits traitsOf(SceneEmit emit) {
   switch (emit) {
     case SceneEmit::opaqueRadiance:
-      return scene_opaque_radiance_frag;
+      return {.name = "scene.opaque_radiance", .geometry = {}, .fragment = scene_opaque_radiance_frag};
     case SceneEmit::transparentList:
-      return scene_transparent_list_frag;
+      return {.name = "scene.transparent_list",
+              .geometry = {},
+              .fragment = scene_transparent_list_frag,
+              .blended = true,
+              .writesDepth = false};
+    case SceneEmit::opaqueLayers:
+      return {.name = "scene.opaque_layers", .geometry = scene_layers_geom, .fragment = scene_layer_radiance_frag};
+    case SceneEmit::transparentLayers:
+      return {.name = "scene.transparent_layers",
+              .geometry = scene_layers_geom,
+              .fragment = scene_layer_radiance_frag,
+              .blended = true};
   }
   return {};
 }
 
 bool isDrawnBy(SceneEmit emit, AlphaMode mode) {
-  return (emit == SceneEmit::transparentList) == (mode == AlphaMode::blend);
+  return traitsOf(emit).blended == (mode == AlphaMode::blend);
 }
 
 GpuBuffer hostBuffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage, const char* name) {
@@ -184,14 +205,17 @@ SceneRenderer::EmitPipeline& SceneRenderer::pipelineFor(const SceneDrawRequest& 
   check(device_.vk().vkCreatePipelineLayout(device_.handle(), &layoutInfo, nullptr, &layout), "vkCreatePipelineLayout");
   made->layout = {device_.handle(), layout, device_.vk().vkDestroyPipelineLayout};
 
-  const std::array<uint32_t, 2> words = {masked ? VK_TRUE : VK_FALSE, lit_ ? VK_TRUE : VK_FALSE};
+  const EmitTraits traits = traitsOf(request.emit);
+  const bool discards = masked || (traits.blended && traits.writesDepth);
+  const std::array<uint32_t, 2> words = {discards ? VK_TRUE : VK_FALSE, lit_ ? VK_TRUE : VK_FALSE};
   const std::array<VkSpecializationMapEntry, 2> entries = {{{0, 0, sizeof(uint32_t)}, {1, 4, sizeof(uint32_t)}}};
   const VkSpecializationInfo specialization{2, entries.data(), sizeof words, words.data()};
   RasterPipelineDesc desc;
-  desc.name = request.emit == SceneEmit::transparentList ? "scene.transparent_list" : "scene.opaque_radiance";
+  desc.name = traits.name;
   desc.vertex = scene_scene_vert;
-  desc.fragment = fragmentOf(request.emit);
-  desc.state = {.depthTest = true, .depthWrite = request.emit == SceneEmit::opaqueRadiance};
+  desc.geometry = traits.geometry;
+  desc.fragment = traits.fragment;
+  desc.state = {.depthTest = true, .depthWrite = traits.writesDepth};
   desc.specialization = &specialization;
   desc.colorFormats = request.colorFormats;
   desc.depthFormat = request.depthFormat;

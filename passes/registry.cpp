@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "passes/accumulation/accumulation.h"
+#include "passes/multiview_synthesis/multiview_synthesis.h"
 #include "passes/pinhole/pinhole.h"
 #include "passes/two_pass_filter/two_pass_filter.h"
 
@@ -13,6 +14,7 @@ std::span<const Technique> techniques() {
   static const std::vector<Technique> all = {
       pinhole::technique(),
       accumulation::technique(),
+      multiview_synthesis::technique(),
       two_pass_filter::technique(),
   };
   return all;

@@ -24,6 +24,11 @@ struct SceneDrawCall {
   std::span<const rendergraph::Binding> emitBindings;
 };
 
+/// Vergences from `farthest` to `nearest`, 1/m.
+struct VergenceInterval {
+  float farthest = 0.0f, nearest = 0.0f;
+};
+
 /// The host's scene, as far as techniques are concerned. Lives until the frame has been recorded.
 struct SceneDraw {
   /// Records draws inside a raster pass (rendering has begun; viewport and scissor are the callback's to set).
@@ -34,6 +39,9 @@ struct SceneDraw {
   /// Vergence range over all geometry inside the frustum and, where it can be seen, the background (0), 1/m.
   float nearestVergence = 0.0f;
   float farthestVergence = 0.0f;
+  /// Where in that range there is geometry, whole triangles at a time: disjoint, nearest first; for techniques that keep
+  /// something per depth. Empty: it may be anywhere in the range. Geometry outside of it is drawn, but roughly.
+  std::span<const VergenceInterval> occupied;
   /// Room for alpha-blended fragments, a mean over all pixels. Too little drops fragments and counts them in
   /// FrameStatistics::transparentDropped; the host then renders again with more.
   float transparentNodesPerPixel = 4.0f;

@@ -150,6 +150,8 @@ class Backend : public DeviceFacts {
                                  const VkBufferImageCopy& region) = 0;
   virtual void copyBuffer(const CommandStream& commands, VkBuffer from, VkBuffer to, VkDeviceSize bytes) = 0;
   virtual void fillBuffer(const CommandStream& commands, VkBuffer to, uint32_t word) = 0;
+  virtual void updateBuffer(const CommandStream& commands, VkBuffer to, VkDeviceSize offset,
+                            std::span<const std::byte> bytes) = 0;
   /// The range is in layout TRANSFER_DST_OPTIMAL, as is the destination of copies; their source is in
   /// TRANSFER_SRC_OPTIMAL.
   virtual void clearImage(const CommandStream& commands, VkImage image, const VkClearColorValue& value,

@@ -81,6 +81,9 @@ class PassContext {
   void copyImageToBuffer(Image from, Buffer to);
   void copyBuffer(Buffer from, Buffer to, VkDeviceSize bytes);
   void fillBuffer(Buffer to, uint32_t word);
+  /// Writes bytes to the start of a buffer declared as transferDestination: a multiple of 4, no more than the buffer
+  /// holds. They travel in the command buffer and are copied by the call: meant for tables of some kilobytes.
+  void updateBuffer(Buffer to, std::span<const std::byte> bytes);
   /// Clears the range declared as transferDestination; a depth image to the value's first component.
   void clearImage(Image to, const VkClearColorValue& value);
 

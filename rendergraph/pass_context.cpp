@@ -323,6 +323,23 @@ void PassContext::fillBuffer(Buffer to, uint32_t word) {
   inside.frame.backend.fillBuffer(inside.recording(pass_), inside.frame.bound[target.resource].buffer, word);
 }
 
+void PassContext::updateBuffer(Buffer to, std::span<const std::byte> bytes) {
+  constexpr std::size_t kMostAtOnce = 65536;  // of vkCmdUpdateBuffer
+  const Inside inside(*this);
+  const DeclaredAccess& target = inside.access.as(to, Usage::transferDestination);
+  if (bytes.empty() || bytes.size() % 4 != 0 || bytes.size() > inside.bytes(target)) {
+    inside.access.fail(
+        Misuse::sizeMismatch, target.resource,
+        std::to_string(bytes.size()) + " bytes are written to a buffer of " + std::to_string(inside.bytes(target)),
+        "write a multiple of 4 bytes, at least 4, that fit into the buffer");
+  }
+  const VkBuffer buffer = inside.frame.bound[target.resource].buffer;
+  for (std::size_t done = 0; done < bytes.size(); done += kMostAtOnce) {
+    const auto part = bytes.subspan(done, std::min(kMostAtOnce, bytes.size() - done));
+    inside.frame.backend.updateBuffer(inside.recording(pass_), buffer, done, part);
+  }
+}
+
 void PassContext::clearImage(Image to, const VkClearColorValue& value) {
   const Inside inside(*this);
   const DeclaredAccess& target = inside.access.as(to, Usage::transferDestination);

@@ -19,8 +19,33 @@ enum class SceneEmit : uint32_t {
   ///   1  storage buffer of TransparentNode
   ///   2  storage buffer of one uint, the allocator: nodes asked for so far. Nodes beyond the pool are dropped
   transparentList = 1,
+  /// Opaque and alpha-masked surfaces into layers of view depth (Lee, Eisemann, Seidel 2009, §4.2). The rendering is
+  /// layered; a geometry stage routes triangles (shaders/scene/layers.geom). Colour attachment 0: linear radiance within
+  /// half floats' range, alpha 1. Depth attachment: tested (greater) and written, layer by layer. Bindings of set 2:
+  ///   0  storage buffer SceneLayerTable
+  opaqueLayers = 2,
+  /// The same for alpha-blended surfaces, of which each layer keeps the nearest: premultiplied radiance, alpha; fragments
+  /// with alpha 0 are discarded.
+  transparentLayers = 3,
 };
 #endif
+
+SHARED_CONST uint kMaxSceneLayers = 64u;
+
+// One layer of view depth, in vergences (1/m), near side first. Its images hold what lies between `nearest` and
+// `farthest`, which overlap the neighbours a little; rays cross it from `near` to `far`.
+struct SceneLayer {
+  float nearVergence, farVergence;
+  float nearest, farthest;
+};
+
+// std430: two words, padding to 16 bytes, then the layers.
+struct SceneLayerHeader {
+  uint layerCount;
+  // 1: a triangle goes into every layer that it crosses, clipped to it. 0: whole, into the layer of its farthest vertex.
+  uint splitTriangles;
+  uint padding0, padding1;
+};
 
 // A fragment of an alpha-blended surface. 24 bytes, scalars only, so that GLSL and C++ agree on the layout.
 struct TransparentNode {

@@ -45,6 +45,10 @@ std::vector<Snapshot> snapshots() {
        .technique = "accumulation",
        .options = {.parameters = twoViews, .cocScale = 0.0f}},
       {.file = "two_pass_filter", .technique = "two_pass_filter"},
+      {.file = "multiview_synthesis", .technique = "multiview_synthesis"},
+      {.file = "multiview_synthesis_2_views_transparency",
+       .technique = "multiview_synthesis",
+       .options = {.parameters = {{"views", int64_t{2}}}, .hasTransparency = true}},
   };
 }
 

@@ -354,6 +354,31 @@ TEST(Executor, HostPassesRunBetweenSubmissionsAndReachTheirBuffers) {
   EXPECT_EQ(misuseOf([&] { executor.record(graph, VK_NULL_HANDLE); }), Misuse::undeclaredAccess);
 }
 
+TEST(Executor, UpdatesABufferWithBytesOfTheRecording) {
+  FakeBackend backend;
+  Executor executor(backend);
+  const auto update = [&](std::size_t byteCount) {
+    Graph graph;
+    Buffer table = graph.createBuffer("table", {.size = 70000});
+    Pass pass = graph.addPass("upload", PassKind::transfer);
+    table = pass.write(table, Usage::transferDestination);
+    pass.record([=](PassContext& context) {
+      const std::vector<std::byte> bytes(byteCount);
+      context.updateBuffer(table, bytes);
+    });
+    graph.exportBuffer(table, {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_READ_BIT});
+    executor.execute(graph);
+  };
+  update(48);
+  EXPECT_EQ(backend.count("update 0+48"), 1u);
+  update(70000);  // more than one command takes
+  EXPECT_EQ(backend.count("update 0+65536"), 1u);
+  EXPECT_EQ(backend.count("update 65536+4464"), 1u);
+  for (const std::size_t bad : {0u, 6u, 70004u}) {
+    EXPECT_EQ(misuseOf([&] { update(bad); }), Misuse::sizeMismatch) << bad;
+  }
+}
+
 TEST(Executor, RecordsIntoTheHostsCommandBufferWithoutSubmitting) {
   FakeBackend backend;
   Executor executor(backend);

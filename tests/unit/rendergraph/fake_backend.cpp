@@ -434,6 +434,10 @@ void FakeBackend::copyBuffer(const CommandStream& stream, VkBuffer from, VkBuffe
 void FakeBackend::fillBuffer(const CommandStream& stream, VkBuffer to, uint32_t word) {
   if (!silent) note(stream, "fill " + std::to_string(word), {idOf(to)});
 }
+void FakeBackend::updateBuffer(const CommandStream& stream, VkBuffer to, VkDeviceSize offset,
+                               std::span<const std::byte> bytes) {
+  if (!silent) note(stream, "update " + std::to_string(offset) + "+" + std::to_string(bytes.size()), {idOf(to)});
+}
 void FakeBackend::clearImage(const CommandStream& stream, VkImage image, const VkClearColorValue&,
                              const VkImageSubresourceRange&) {
   if (!silent) note(stream, "clear", {idOf(image)});

@@ -125,6 +125,8 @@ class FakeBackend : public rendergraph::Backend {
   void copyImageToBuffer(const CommandStream& commands, VkImage, VkBuffer, const VkBufferImageCopy&) override;
   void copyBuffer(const CommandStream& commands, VkBuffer, VkBuffer, VkDeviceSize bytes) override;
   void fillBuffer(const CommandStream& commands, VkBuffer, uint32_t word) override;
+  void updateBuffer(const CommandStream& commands, VkBuffer, VkDeviceSize offset,
+                    std::span<const std::byte> bytes) override;
   void clearImage(const CommandStream& commands, VkImage, const VkClearColorValue&,
                   const VkImageSubresourceRange&) override;
   void clearDepthImage(const CommandStream& commands, VkImage, float, const VkImageSubresourceRange&) override;

@@ -1,0 +1,148 @@
+// The multiview synthesis as a technique: parameters, and the order of its nodes.
+#include "passes/multiview_synthesis/multiview_synthesis.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "passes/make_technique.h"
+#include "passes/multiview_synthesis/layers.h"
+#include "passes/multiview_synthesis/nodes.h"
+#include "passes/pinhole/pinhole.h"
+#include "passes/scene_view.h"
+#include "passes/statistics.h"
+
+namespace passes::multiview_synthesis {
+namespace {
+
+constexpr const char* kPrefix = "multiview_synthesis";
+
+/// The layers reach at most this far beyond the picture, as a share of its longer side.
+constexpr double kWidestBorder = 0.5;
+
+/// The paper's mean distance between lens samples, 0.137 for 32, and as it shrinks with more.
+double coneDiameterOf(const Parameters& parameters) {
+  return parameters.coneWidth * 0.137 * std::sqrt(32.0 / parameters.lensSamples);
+}
+
+uint32_t roundedUp(double value, uint32_t multiple) {
+  return static_cast<uint32_t>(std::ceil(value / multiple)) * multiple;
+}
+
+ViewPlan viewPlan(const DofInputs& inputs, const Parameters& parameters, LensView view, std::string prefix) {
+  ViewPlan plan;
+  plan.prefix = std::move(prefix);
+  plan.inputs = inputs;
+  plan.parameters = parameters;
+  const auto& scene = *inputs.scene;
+  const VergenceInterval whole{scene.farthestVergence, scene.nearestVergence};
+  auto occupied = scene.occupied;
+  if (occupied.empty() && whole.nearest > 0.0f) occupied = {&whole, 1};
+  // All rays of a view may be one: through its own lens point, they do not travel at all.
+  const double reach = std::max(static_cast<double>(view.reach), 1e-3);
+  plan.layers = sceneLayers(occupied, {.pixelsPerVergence = inputs.lens.cocScale * reach,
+                                       .travel = parameters.delta,
+                                       .fixedCount = static_cast<uint32_t>(parameters.layers),
+                                       .mostLayers = shared::kMaxSceneLayers / (scene.hasTransparency ? 2 : 1)});
+  plan.view = std::move(view);
+
+  const auto blur = [&](float vergence) {
+    return inputs.lens.cocScale * std::abs(inputs.lens.focusVergence - vergence);
+  };
+  const double largest = std::max(blur(plan.layers.front().nearest), blur(plan.layers.back().farthest));
+  plan.coneDiameter = static_cast<float>(coneDiameterOf(parameters));
+  const double cone = std::min(plan.coneDiameter * largest, 256.0);
+  plan.mips = cone > 1.0 ? 1 + static_cast<uint32_t>(std::ceil(std::log2(cone))) : 1;
+
+  const auto [width, height] = inputs.extent;
+  const double border = std::min(parameters.border * largest * reach, kWidestBorder * std::max(width, height));
+  const auto side = static_cast<int32_t>(std::ceil(border) + 1.0);
+  plan.border = {side, side};
+  const uint32_t multiple = std::max(shared::kMultiviewCell, 1u << (plan.mips - 1));
+  plan.size = {roundedUp(width + 2.0 * side, multiple), roundedUp(height + 2.0 * side, multiple)};
+  return plan;
+}
+
+/// Without an aperture the views differ only in their pixel offsets, as those of the pinhole picture do.
+pinhole::Parameters withoutLens(const Parameters& parameters) {
+  return {.pixelSamples = parameters.views, .viewsPerFrame = 64, .pattern = parameters.pattern};
+}
+
+}  // namespace
+
+std::span<const Field<Parameters>> fields() {
+  static const std::vector<Field<Parameters>> table = {
+      number<&Parameters::lensSamples>("lensSamples", "", 1, 4096, "Rays a pixel. Time grows with it."),
+      number<&Parameters::delta>("delta", "px", 0.25, 64.0,
+                                 "Most that a ray travels across the picture in one layer. Smaller finds more of what "
+                                 "is hidden; halving it doubles layers and memory."),
+      number<&Parameters::layers>("layers", "", 0, 64, "Number of layers; 0: as many as delta asks for."),
+      number<&Parameters::iterations>("iterations", "", 1, 8, "Looks of the false position at a layer's surface."),
+      choice<&Parameters::search, kSearchNames>(
+          "search",
+          "How a ray finds a layer's surface: falsePosition (the paper), or scan, "
+          "a look every half pixel, which costs more where layers are thick."),
+      number<&Parameters::coneWidth>("coneWidth", "", 0.0, 8.0,
+                                     "Diameter of the cones around rays, 1 being the paper's; 0 traces lines. Wider "
+                                     "hides noise and softens what is hidden behind edges."),
+      choice<&Parameters::jitter, kJitterNames>("jitter",
+                                                "How rays differ from pixel to pixel: banding becomes noise."),
+      number<&Parameters::views>("views", "", 1, 64,
+                                 "Decompositions from points of the lens, each for the rays near it. More see more of "
+                                 "what is hidden and antialias what is in focus; each costs one draw of the scene."),
+      number<&Parameters::border>("border", "", 0.0, 1.0,
+                                  "How far layers reach beyond the picture, in largest blur radii. Less saves memory "
+                                  "and loses rays near the picture's edges."),
+      toggle<&Parameters::splitTriangles>("splitTriangles",
+                                          "Put triangles into every layer they cross, clipped; off, the paper: whole "
+                                          "into the layer of the farthest vertex, where they may hide others."),
+      toggle<&Parameters::culling>("culling", "Skip layers where no ray can hit anything. Changes no picture."),
+      choice<&Parameters::pattern, kLensPatternNames>("pattern", "Low-discrepancy pattern of the lens points."),
+  };
+  return table;
+}
+
+std::vector<Problem> validate(const Parameters& parameters, const DofInputs& inputs) {
+  auto problems = checkSceneInputs(inputs);
+  if (parameters.views > parameters.lensSamples) {
+    problems.push_back({"views", "there are more views than rays", "set views to lensSamples or less"});
+  }
+  return problems;
+}
+
+uint32_t frameCount(const Parameters&, const DofInputs&) {
+  return 1;
+}
+
+DofOutputs declare(rendergraph::Graph& graph, const DofInputs& inputs, const Parameters& parameters) {
+  if (inputs.lens.cocScale == 0.0f) return pinhole::declare(graph, inputs, withoutLens(parameters));
+  auto views = lensViews({.aperture = inputs.aperture,
+                          .rayCount = static_cast<uint32_t>(parameters.lensSamples),
+                          .viewCount = static_cast<uint32_t>(parameters.views),
+                          .pattern = parameters.pattern,
+                          .jitter = parameters.jitter});
+  DofOutputs out;
+  out.statistics = declareStatistics(graph, kPrefix);
+  const auto [width, height] = inputs.extent;
+  out.color = graph.createImage(std::string(kPrefix) + ".color",
+                                {.format = kViewColorFormat, .width = width, .height = height});
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const std::string prefix = kPrefix + (views.size() > 1 ? ".view" + std::to_string(i) : std::string());
+    const ViewPlan plan = viewPlan(inputs, parameters, std::move(views[i]), prefix);
+    const Tables tables = declareUpload(graph, plan);
+    LayerImages images = declareDecompose(graph, plan, tables, out.statistics);
+    const auto visits = parameters.culling ? declareCulling(graph, plan, tables, images) : rendergraph::Buffer{};
+    declareMips(graph, plan, tables, images);
+    out.color = declareTrace(graph, plan, tables, images, visits, out.color, i == 0, i + 1 == views.size());
+  }
+  return out;
+}
+
+Technique technique() {
+  return makeTechnique<fields, validate, declare, frameCount>(
+      {"multiview_synthesis", "Multiview synthesis",
+       "Lee, Eisemann, Seidel 2009, Depth-of-Field Rendering with Multiview Synthesis"},
+      TechniqueInput::scene);
+}
+
+}  // namespace passes::multiview_synthesis

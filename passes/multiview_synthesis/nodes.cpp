@@ -1,0 +1,317 @@
+// Nodes of the multiview synthesis. What they compute is in shaders/multiview_synthesis.
+#include "passes/multiview_synthesis/nodes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+#include "passes/lens_view.h"
+#include "passes/scene_view.h"
+#include "shaders/shared/multiview_synthesis.h"
+#include "spirv/multiview_synthesis/dilate_comp.h"
+#include "spirv/multiview_synthesis/mip_comp.h"
+#include "spirv/multiview_synthesis/redistribute_comp.h"
+#include "spirv/multiview_synthesis/trace_comp.h"
+#include "spirv/multiview_synthesis/visit_comp.h"
+
+namespace passes::multiview_synthesis {
+namespace {
+
+using rendergraph::Binding;
+using rendergraph::Buffer;
+using rendergraph::ComputeProgram;
+using rendergraph::Graph;
+using rendergraph::Image;
+using rendergraph::PassContext;
+using rendergraph::PassKind;
+using rendergraph::Usage;
+
+const ComputeProgram kRedistribute{"multiview_synthesis.redistribute", multiview_synthesis_redistribute_comp};
+const ComputeProgram kDilate{"multiview_synthesis.dilate", multiview_synthesis_dilate_comp};
+const ComputeProgram kVisit{"multiview_synthesis.visit", multiview_synthesis_visit_comp};
+const ComputeProgram kMip{"multiview_synthesis.mip", multiview_synthesis_mip_comp};
+const ComputeProgram kTrace{"multiview_synthesis.trace", multiview_synthesis_trace_comp};
+
+/// Half the bytes of full floats; the layers are the technique's memory. Radiance is limited to 65504.
+constexpr VkFormat kColorFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
+constexpr VkFormat kHeightFormat = VK_FORMAT_R32_SFLOAT;
+constexpr VkImageViewType kArray = VK_IMAGE_VIEW_TYPE_2D_ARRAY;
+
+/// A bit for each slice.
+using SliceMask = shared::uvec2;
+
+VkDeviceSize maskBytes(const ViewPlan& plan, uint32_t levels) {
+  return VkDeviceSize{levels} * plan.cells().width * plan.cells().height * sizeof(SliceMask);
+}
+
+shared::ivec2 signedExtent(VkExtent2D extent) {
+  return {static_cast<int32_t>(extent.width), static_cast<int32_t>(extent.height)};
+}
+
+/// The layers' view: that of the pinhole, from the view's lens point, on a picture that is larger all around.
+shared::ViewConstants layerView(const ViewPlan& plan) {
+  DofInputs wider = plan.inputs;
+  wider.extent = plan.size;
+  const auto shift = [](int32_t border, uint32_t inner, uint32_t outer) {
+    return static_cast<float>(border) + 0.5f * static_cast<float>(inner) - 0.5f * static_cast<float>(outer);
+  };
+  const auto& [x, y] = plan.view.pixelOffset;
+  return viewFromLens(wider, plan.view.lens,
+                      {x + shift(plan.border.x, plan.inputs.extent.width, plan.size.width),
+                       y + shift(plan.border.y, plan.inputs.extent.height, plan.size.height)});
+}
+
+/// Draws the surfaces of an emit into a range of slices.
+void declareDraw(Graph& graph, const ViewPlan& plan, const Tables& tables, shared::SceneEmit emit, const char* name,
+                 uint32_t firstSlice, Image& color, Image& depth) {
+  const rendergraph::Subresources slices{.mipCount = 1, .firstLayer = firstSlice, .layerCount = plan.layerCount()};
+  auto pass = graph.addPass(plan.prefix + name, PassKind::raster);
+  pass.read(tables.layers, Usage::storage);
+  color = pass.color(color, {.range = slices});
+  depth = pass.depth(depth, {.range = slices});
+  pass.record([scene = plan.inputs.scene, extent = plan.size, view = layerView(plan), layers = tables.layers,
+               emit](PassContext& context) {
+    const std::array bindings = {rendergraph::storage(layers)};
+    scene->record(context, {.emit = emit, .view = view, .extent = extent, .emitBindings = bindings});
+  });
+}
+
+void declareRedistribute(Graph& graph, const ViewPlan& plan, const Tables& tables, Image depth, LayerImages& images,
+                         Buffer& statistics) {
+  const bool moves = !plan.parameters.splitTriangles || plan.layerCount() > 32;
+  auto pass = graph.addPass(plan.prefix + ".redistribute", PassKind::compute);
+  pass.sample(depth);
+  pass.read(tables.layers, Usage::storage);
+  images.color = pass.modify(images.color, Usage::storage, rendergraph::mip(0));
+  images.height = pass.write(images.height, Usage::storage);
+  images.occupied = pass.write(images.occupied, Usage::storage);
+  statistics = pass.modify(statistics, Usage::storage);
+  const shared::RedistributePush push{.size = signedExtent(plan.size),
+                                      .sliceCount = plan.sliceCount(),
+                                      .layerCount = plan.layerCount(),
+                                      .vergenceScale = plan.inputs.lens.vergenceScale,
+                                      .vergenceOffset = plan.inputs.lens.vergenceOffset};
+  pass.record(
+      [depth, table = tables.layers, images, statistics, push, moves, extent = plan.size](PassContext& context) {
+        const rendergraph::SamplerDesc nearest{.filter = VK_FILTER_NEAREST};
+        const std::array bindings = {rendergraph::sampled(depth, nearest, {}, kArray),
+                                     rendergraph::storage(table),
+                                     rendergraph::storage(images.color, rendergraph::mip(0), kArray),
+                                     rendergraph::storage(images.height, rendergraph::mip(0), kArray),
+                                     rendergraph::storage(images.occupied),
+                                     rendergraph::storage(statistics)};
+        const std::array<uint32_t, 1> specialization = {moves ? 1u : 0u};
+        context.dispatch({.program = kRedistribute,
+                          .bindings = bindings,
+                          .pushConstants = rendergraph::bytesOf(push),
+                          .specialization = specialization,
+                          .groups = rendergraph::groupsFor(extent, shared::kMultiviewTile)});
+      });
+}
+
+/// Largest |c| that any layer's content has, px.
+float largestCoc(const ViewPlan& plan) {
+  const auto& lens = plan.inputs.lens;
+  const auto radius = [&](float vergence) { return lens.cocScale * std::abs(lens.focusVergence - vergence); };
+  return std::max(radius(plan.layers.front().nearest), radius(plan.layers.back().farthest));
+}
+
+/// Highest level of the N-buffer: windows are as wide as the widest spread of rays, in cells.
+uint32_t highestLevel(const ViewPlan& plan, float rayReach) {
+  const float widest = 2.0f * std::ceil(largestCoc(plan) * rayReach + 2.0f) + shared::kMultiviewCell;
+  const float cells = std::min(std::ceil(widest / shared::kMultiviewCell) + 1.0f,
+                               static_cast<float>(std::max(plan.cells().width, plan.cells().height)));
+  return static_cast<uint32_t>(std::floor(std::log2(std::max(cells, 1.0f))));
+}
+
+/// How far from the view's lens point a ray and the cone around it reach.
+float rayReach(const ViewPlan& plan) {
+  return plan.view.reach + 2.0f * plan.coneDiameter;  // A trilinear look-up reads two of its texels to each side.
+}
+
+}  // namespace
+
+VkExtent2D ViewPlan::cells() const {
+  return {size.width / shared::kMultiviewCell, size.height / shared::kMultiviewCell};
+}
+
+Tables declareUpload(Graph& graph, const ViewPlan& plan) {
+  const shared::SceneLayerHeader header{.layerCount = plan.layerCount(),
+                                        .splitTriangles = plan.parameters.splitTriangles ? 1u : 0u,
+                                        .padding0 = 0,
+                                        .padding1 = 0};
+  std::vector<std::byte> table(sizeof header + std::as_bytes(std::span(plan.layers)).size());
+  std::memcpy(table.data(), &header, sizeof header);
+  std::memcpy(table.data() + sizeof header, plan.layers.data(), table.size() - sizeof header);
+  const auto rays = std::as_bytes(std::span(plan.view.rays));
+
+  Tables tables;
+  tables.layers = graph.createBuffer(plan.prefix + ".layers", {.size = table.size()});
+  tables.rays = graph.createBuffer(plan.prefix + ".rays", {.size = rays.size()});
+  auto pass = graph.addPass(plan.prefix + ".upload", PassKind::transfer);
+  tables.layers = pass.write(tables.layers, Usage::transferDestination);
+  tables.rays = pass.write(tables.rays, Usage::transferDestination);
+  pass.record([tables, table = std::move(table),
+               rays = std::vector<std::byte>(rays.begin(), rays.end())](PassContext& context) {
+    context.updateBuffer(tables.layers, table);
+    context.updateBuffer(tables.rays, rays);
+  });
+  return tables;
+}
+
+LayerImages declareDecompose(Graph& graph, const ViewPlan& plan, const Tables& tables, Buffer& statistics) {
+  const auto [width, height] = plan.size;
+  const uint32_t slices = plan.sliceCount();
+  const auto image = [&, width = width, height = height](const char* name, VkFormat format, uint32_t mips) {
+    return graph.createImage(plan.prefix + name,
+                             {.format = format, .width = width, .height = height, .layers = slices, .mips = mips});
+  };
+  LayerImages images;
+  images.color = image(".layer_color", kColorFormat, plan.mips);
+  images.height = image(".layer_height", kHeightFormat, 1);
+  const uint32_t levels = highestLevel(plan, rayReach(plan)) + 1;
+  images.occupied = graph.createBuffer(plan.prefix + ".occupied", {.size = maskBytes(plan, levels)});
+  Image depth = image(".layer_depth", kViewDepthFormat, 1);
+  declareDraw(graph, plan, tables, shared::SceneEmit::opaqueLayers, ".decompose", 0, images.color, depth);
+  if (slices > plan.layerCount()) {
+    declareDraw(graph, plan, tables, shared::SceneEmit::transparentLayers, ".decompose_transparent", plan.layerCount(),
+                images.color, depth);
+  }
+  declareRedistribute(graph, plan, tables, depth, images, statistics);
+  return images;
+}
+
+Buffer declareCulling(Graph& graph, const ViewPlan& plan, const Tables& tables, LayerImages& images) {
+  const auto cells = plan.cells();
+  const auto groups = rendergraph::groupsFor(cells, shared::kMultiviewTile);
+  const uint32_t highest = highestLevel(plan, rayReach(plan));
+  for (uint32_t level = 1; level <= highest; ++level) {
+    auto pass = graph.addPass(plan.prefix + ".n_buffer" + std::to_string(level), PassKind::compute);
+    images.occupied = pass.modify(images.occupied, Usage::storage);
+    const shared::DilatePush push{.cells = signedExtent(cells), .level = level};
+    pass.record([occupied = images.occupied, push, groups](PassContext& context) {
+      const std::array bindings = {rendergraph::storage(occupied)};
+      context.dispatch(
+          {.program = kDilate, .bindings = bindings, .pushConstants = rendergraph::bytesOf(push), .groups = groups});
+    });
+  }
+  Buffer visits = graph.createBuffer(plan.prefix + ".visits", {.size = maskBytes(plan, 1)});
+  auto pass = graph.addPass(plan.prefix + ".cull", PassKind::compute);
+  pass.read(images.occupied, Usage::storage);
+  pass.read(tables.layers, Usage::storage);
+  visits = pass.write(visits, Usage::storage);
+  const shared::VisitPush push{.cells = signedExtent(cells),
+                               .layerCount = plan.layerCount(),
+                               .highestLevel = highest,
+                               .cocScale = plan.inputs.lens.cocScale,
+                               .focusVergence = plan.inputs.lens.focusVergence,
+                               .rayReach = rayReach(plan),
+                               .hasTransparency = plan.sliceCount() > plan.layerCount() ? 1u : 0u};
+  pass.record([occupied = images.occupied, table = tables.layers, visits, push, groups](PassContext& context) {
+    const std::array bindings = {rendergraph::storage(occupied), rendergraph::storage(table),
+                                 rendergraph::storage(visits)};
+    context.dispatch(
+        {.program = kVisit, .bindings = bindings, .pushConstants = rendergraph::bytesOf(push), .groups = groups});
+  });
+  return visits;
+}
+
+void declareMips(Graph& graph, const ViewPlan& plan, const Tables& tables, LayerImages& images) {
+  for (uint32_t level = 1; level < plan.mips; ++level) {
+    const VkExtent2D extent = {plan.size.width >> level, plan.size.height >> level};
+    auto pass = graph.addPass(plan.prefix + ".mip" + std::to_string(level), PassKind::compute);
+    pass.read(images.color, Usage::storage, rendergraph::mip(level - 1));
+    pass.read(tables.layers, Usage::storage);
+    images.color = pass.write(images.color, Usage::storage, rendergraph::mip(level));
+    const shared::MipPush push{.size = signedExtent(extent),
+                               .level = level,
+                               .layerCount = plan.layerCount(),
+                               .cocScale = plan.inputs.lens.cocScale,
+                               .focusVergence = plan.inputs.lens.focusVergence,
+                               .coneDiameter = plan.coneDiameter};
+    auto groups = rendergraph::groupsFor(extent, shared::kMultiviewTile);
+    groups.z = plan.sliceCount();
+    pass.record([color = images.color, table = tables.layers, level, push, groups](PassContext& context) {
+      const std::array bindings = {rendergraph::storage(color, rendergraph::mip(level - 1), kArray),
+                                   rendergraph::storage(color, rendergraph::mip(level), kArray),
+                                   rendergraph::storage(table)};
+      context.dispatch(
+          {.program = kMip, .bindings = bindings, .pushConstants = rendergraph::bytesOf(push), .groups = groups});
+    });
+  }
+}
+
+namespace {
+
+/// Rays of one dispatch. Devices may end an invocation's loops after 65 535 iterations in all, silently.
+uint32_t raysPerDispatch(const ViewPlan& plan) {
+  constexpr float kIterations = 60000.0f;
+  float looks = static_cast<float>(plan.parameters.iterations + 4);
+  if (plan.parameters.search == Search::scan) {
+    float thickest = 0.0f;
+    for (const auto& layer : plan.layers) thickest = std::max(thickest, layer.nearVergence - layer.farVergence);
+    looks = 2.0f * plan.inputs.lens.cocScale * plan.view.reach * thickest + 4.0f;
+  }
+  const float perRay = static_cast<float>(plan.sliceCount()) * (looks + 1.0f) + 1.0f;
+  return static_cast<uint32_t>(std::max(kIterations / perRay, 1.0f));
+}
+
+}  // namespace
+
+Image declareTrace(Graph& graph, const ViewPlan& plan, const Tables& tables, const LayerImages& images, Buffer visits,
+                   Image picture, bool isFirst, bool isLast) {
+  const uint32_t most = raysPerDispatch(plan);
+  const uint32_t total = plan.view.raysPerPixel;
+  const auto& [lens, aperture] = std::pair(plan.inputs.lens, plan.inputs.aperture);
+  const auto& background = plan.inputs.background;
+  for (uint32_t first = 0; first < total; first += most) {
+    const bool starts = isFirst && first == 0;
+    const bool ends = isLast && first + most >= total;
+    const std::string part = total > most ? ".trace" + std::to_string(first / most) : ".trace";
+    auto pass = graph.addPass(plan.prefix + part, PassKind::compute);
+    pass.sample(images.color);
+    pass.read(images.height, Usage::storage);
+    pass.read(tables.layers, Usage::storage);
+    pass.read(tables.rays, Usage::storage);
+    if (visits) pass.read(visits, Usage::storage);
+    picture = starts ? pass.write(picture, Usage::storage) : pass.modify(picture, Usage::storage);
+    const shared::TracePush push{.aperture = aperture,
+                                 .size = signedExtent(plan.size),
+                                 .border = plan.border,
+                                 .extent = {plan.inputs.extent.width, plan.inputs.extent.height},
+                                 .viewPoint = plan.view.lens,
+                                 .background = {background[0], background[1], background[2]},
+                                 .layerCount = plan.layerCount(),
+                                 .firstRay = first,
+                                 .rayCount = std::min(most, total - first),
+                                 .rayTotal = static_cast<uint32_t>(plan.view.rays.size()),
+                                 .flags = (starts ? shared::kTraceFirst : 0u) | (ends ? shared::kTraceLast : 0u),
+                                 .cocScale = lens.cocScale,
+                                 .focusVergence = lens.focusVergence,
+                                 .vergenceScale = lens.vergenceScale,
+                                 .coneDiameter = plan.coneDiameter,
+                                 .noiseReach = noiseReach(static_cast<uint32_t>(plan.parameters.lensSamples))};
+    const std::array<uint32_t, 6> specialization = {
+        static_cast<uint32_t>(plan.parameters.jitter),     static_cast<uint32_t>(plan.parameters.search),
+        static_cast<uint32_t>(plan.parameters.iterations), plan.mips > 1 ? 1u : 0u,
+        plan.sliceCount() > plan.layerCount() ? 1u : 0u,   visits ? 1u : 0u};
+    pass.record([=, extent = plan.inputs.extent](PassContext& context) {
+      const rendergraph::SamplerDesc trilinear{.mipmap = VK_SAMPLER_MIPMAP_MODE_LINEAR};
+      const std::array bindings = {rendergraph::sampled(images.color, trilinear, {}, kArray),
+                                   rendergraph::storage(images.height, rendergraph::mip(0), kArray),
+                                   rendergraph::storage(tables.layers),
+                                   rendergraph::storage(tables.rays),
+                                   rendergraph::storage(visits ? visits : tables.rays),
+                                   rendergraph::storage(picture)};
+      context.dispatch({.program = kTrace,
+                        .bindings = bindings,
+                        .pushConstants = rendergraph::bytesOf(push),
+                        .specialization = specialization,
+                        .groups = rendergraph::groupsFor(extent, shared::kMultiviewTile)});
+    });
+  }
+  return picture;
+}
+
+}  // namespace passes::multiview_synthesis

@@ -1,0 +1,58 @@
+// The nodes of the multiview synthesis, each a function from handles to handles.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "passes/dof_io.h"
+#include "passes/multiview_synthesis/lens_rays.h"
+#include "passes/multiview_synthesis/multiview_synthesis.h"
+#include "rendergraph/graph.h"
+#include "shaders/shared/emit.h"
+
+namespace passes::multiview_synthesis {
+
+/// What all nodes of one view need.
+struct ViewPlan {
+  std::string prefix;  ///< Of pass and resource names.
+  DofInputs inputs;
+  Parameters parameters;
+  LensView view;
+  std::vector<shared::SceneLayer> layers;
+  VkExtent2D size;            ///< px, of the layers; a multiple of the cells and of the coarsest mip level's texels.
+  shared::ivec2 border;       ///< px of the layers to the left of and above the picture.
+  uint32_t mips = 1;          ///< Of the layers' colour.
+  float coneDiameter = 0.0f;  ///< λ, px per px of |c|; 0: lines.
+
+  uint32_t layerCount() const { return static_cast<uint32_t>(layers.size()); }
+  /// Slices of the layer images: opaque layers, then, where anything is transparent, as many transparent ones.
+  uint32_t sliceCount() const { return layerCount() * (inputs.scene->hasTransparency ? 2 : 1); }
+  VkExtent2D cells() const;
+};
+
+/// The tables that the shaders read.
+struct Tables {
+  rendergraph::Buffer layers, rays;
+};
+
+/// The scene in layers.
+struct LayerImages {
+  rendergraph::Image color;      ///< RGBA16F array with mips: premultiplied radiance and coverage.
+  rendergraph::Image height;     ///< R32F array: the depth buffer's value; 0 where a layer is empty.
+  rendergraph::Buffer occupied;  ///< N-buffer: per level and cell a bit for each slice that holds anything.
+};
+
+Tables declareUpload(rendergraph::Graph& graph, const ViewPlan& plan);
+LayerImages declareDecompose(rendergraph::Graph& graph, const ViewPlan& plan, const Tables& tables,
+                             rendergraph::Buffer& statistics);
+/// Which slices the rays of each cell may hit.
+rendergraph::Buffer declareCulling(rendergraph::Graph& graph, const ViewPlan& plan, const Tables& tables,
+                                   LayerImages& images);
+void declareMips(rendergraph::Graph& graph, const ViewPlan& plan, const Tables& tables, LayerImages& images);
+/// Adds the view's rays to the picture; the first view starts it, the last one finishes it.
+rendergraph::Image declareTrace(rendergraph::Graph& graph, const ViewPlan& plan, const Tables& tables,
+                                const LayerImages& images, rendergraph::Buffer visits, rendergraph::Image picture,
+                                bool isFirst, bool isLast);
+
+}  // namespace passes::multiview_synthesis

@@ -1,0 +1,23 @@
+// SceneEmit::opaqueLayers and transparentLayers: premultiplied radiance, as half floats hold it.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "surface.glsl"
+
+// Without discard the device may test depth before shading.
+layout(constant_id = 0) const bool discards = false;
+
+layout(location = 0) out vec4 radiance;
+
+// Stores to half floats may truncate; rounding first keeps means true. NaN passes through: it is counted later.
+vec4 roundedToHalf(vec4 value) {
+  const vec4 limited = clamp(value, -65504.0, 65504.0);
+  const vec4 rounded = vec4(unpackHalf2x16(packHalf2x16(limited.xy)), unpackHalf2x16(packHalf2x16(limited.zw)));
+  return mix(rounded, value, isnan(value));
+}
+
+void main() {
+  const vec4 color = surface();
+  if (discards && !(color.a > 0.0)) discard;
+  const float alpha = min(color.a, 1.0);
+  radiance = roundedToHalf(vec4(color.rgb * alpha, alpha));
+}
