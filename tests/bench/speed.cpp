@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "allocations.h"
+#include "allocation_count.h"
 #include "corpus.h"
 #include "fake_backend.h"
 #include "rendergraph/aliasing.h"
@@ -18,6 +18,7 @@ namespace bench {
 namespace {
 
 using namespace rendergraph;
+using test_support::allocationsSoFar;
 
 /// One frame's work, over and over on a graph that keeps its memory.
 class Frames {
