@@ -13,30 +13,36 @@ namespace rendergraph {
 
 namespace {
 
+// Random bits, one word for each pair of words of a structure, so that the place counts.
+constexpr uint64_t kSalts[] = {0x2D358DCCAA6C78A5ull, 0x8BB84B93962EACC9ull, 0x4B33A62ED433D4A3ull,
+                               0x4D5A2DA51DE1AA47ull};
+
 class Hash {
  public:
-  /// Any structure without padding, in steps of eight bytes.
+  /// Any structure without padding. Its products wait for what was added before, not for each other.
   template <class T>
   void add(const T& value) {
     static_assert(std::has_unique_object_representations_v<T> && sizeof(T) % 8 == 0);
-    uint64_t words[sizeof(T) / 8];
-    std::memcpy(words, &value, sizeof(T));
-    for (std::size_t i = 0; i < std::size(words); i += 2) {
-      // Two chains of products, since each one waits for the last.
-      uint64_t& state = i % 4 == 0 ? even_ : odd_;
-      state = product(words[i] ^ kFirst, (i + 1 < std::size(words) ? words[i + 1] : kSecond) ^ state);
-    }
+    constexpr std::size_t kWords = sizeof(T) / 8;
+    static_assert(kWords <= 2 * std::size(kSalts));
+    const auto word = [&](std::size_t i) {
+      uint64_t result = 0;
+      if (i < kWords) std::memcpy(&result, reinterpret_cast<const std::byte*>(&value) + 8 * i, 8);
+      return result;
+    };
+    uint64_t mixed = 0;
+    for (std::size_t i = 0; i < kWords; i += 2) mixed ^= product(word(i) ^ kSalts[i / 2], word(i + 1) ^ state_);
+    state_ = mixed;
   }
-  uint64_t value() const { return product(even_ ^ kFirst, product(odd_ ^ kSecond, kFirst)); }
+  uint64_t value() const { return product(state_ ^ kSalts[0], kSalts[1]); }
 
  private:
-  static constexpr uint64_t kFirst = 0x2D358DCCAA6C78A5ull, kSecond = 0x8BB84B93962EACC9ull;
   static uint64_t product(uint64_t a, uint64_t b) {
     __extension__ using Wide = unsigned __int128;
     const Wide wide = static_cast<Wide>(a) * b;
     return static_cast<uint64_t>(wide) ^ static_cast<uint64_t>(wide >> 64);
   }
-  uint64_t even_ = 0x243F6A8885A308D3ull, odd_ = 0x13198A2E03707344ull;
+  uint64_t state_ = 0x243F6A8885A308D3ull;
 };
 
 struct StateWords {
