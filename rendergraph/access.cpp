@@ -27,7 +27,7 @@ struct Row {
 };
 
 // Indexed by Usage. A depth attachment that is only written is still tested, hence `always`.
-constexpr std::array<Row, 12> kTable = {{
+constexpr std::array<Row, kUsages> kTable = {{
     {"sampled", 0, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, 0, 0, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
      VK_IMAGE_USAGE_SAMPLED_BIT, 0},
     {"storage", 0, VK_ACCESS_2_SHADER_STORAGE_READ_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, 0,
@@ -56,21 +56,36 @@ constexpr std::array<Row, 12> kTable = {{
      VK_IMAGE_LAYOUT_UNDEFINED, 0, VK_BUFFER_USAGE_TRANSFER_SRC_BIT},
 }};
 
-}  // namespace
-
-AccessRules rulesOf(Usage usage, AccessMode mode, VkPipelineStageFlags2 shaderStages) {
+constexpr AccessRules combine(Usage usage, AccessMode mode) {
   const Row& row = kTable[static_cast<std::size_t>(usage)];
   VkAccessFlags2 access = row.always;
   if (mode != AccessMode::write) access |= row.read;
   if (mode != AccessMode::read) access |= row.write;
-  return {.stages = row.stages != 0 ? row.stages : shaderStages,
+  // A transfer or host write of a part keeps the rest without reading it: modify needs only the write.
+  const bool possible = mode == AccessMode::read ? row.read != 0 : row.write != 0;
+  const bool needsDepth = usage == Usage::depthAttachment || usage == Usage::depthReadOnly;
+  return {.stages = row.stages,
           .access = access,
           .layout = row.layout,
           .imageUsage = row.imageUsage,
           .bufferUsage = row.bufferUsage,
-          // A transfer or host write of a part keeps the rest without reading it: modify needs only the write.
-          .possible = mode == AccessMode::read ? row.read != 0 : row.write != 0};
+          .possible = possible,
+          .anyColorImage = possible && row.imageUsage != 0 && !needsDepth,
+          // The host reaches only some kinds of memory.
+          .anyBuffer = possible && row.bufferUsage != 0 && usage != Usage::host};
 }
+
+constexpr auto combineAll() {
+  std::array<AccessRules, kUsages * kAccessModes> rules{};
+  for (std::size_t i = 0; i < rules.size(); ++i) {
+    rules[i] = combine(static_cast<Usage>(i / kAccessModes), static_cast<AccessMode>(i % kAccessModes));
+  }
+  return rules;
+}
+
+}  // namespace
+
+constexpr std::array<AccessRules, kUsages* kAccessModes> kAccessRules = combineAll();
 
 bool usesShaderStages(Usage usage) {
   return kTable[static_cast<std::size_t>(usage)].stages == 0;

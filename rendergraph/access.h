@@ -4,6 +4,7 @@
 
 #include <vulkan/vulkan_core.h>
 
+#include <array>
 #include <cstdint>
 #include <string_view>
 
@@ -34,16 +35,23 @@ enum class AccessMode : uint8_t {
 };
 
 struct AccessRules {
-  VkPipelineStageFlags2 stages;
+  VkPipelineStageFlags2 stages;  ///< 0: the shader stages that touch the resource.
   VkAccessFlags2 access;
   VkImageLayout layout;            ///< UNDEFINED for buffers.
   VkImageUsageFlags imageUsage;    ///< 0 when an image cannot be used so.
   VkBufferUsageFlags bufferUsage;  ///< 0 when a buffer cannot be used so.
   bool possible;                   ///< Whether the usage can read (read) or write (write, modify) at all.
+  bool anyColorImage;              ///< Right for every colour image of the graph.
+  bool anyBuffer;                  ///< Right for every buffer of the graph.
 };
 
-/// `shaderStages`: stages that touch the resource for shader usages; ignored for fixed-function usages.
-AccessRules rulesOf(Usage usage, AccessMode mode, VkPipelineStageFlags2 shaderStages);
+inline constexpr std::size_t kUsages = 12, kAccessModes = 3;
+/// Of each usage in each mode. A table, since every declared access asks it.
+extern const std::array<AccessRules, kUsages * kAccessModes> kAccessRules;
+
+inline const AccessRules& rulesOf(Usage usage, AccessMode mode) {
+  return kAccessRules[static_cast<std::size_t>(usage) * kAccessModes + static_cast<std::size_t>(mode)];
+}
 
 /// Whether the usage happens in shaders, so that the caller names the stages.
 bool usesShaderStages(Usage usage);

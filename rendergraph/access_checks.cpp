@@ -25,7 +25,9 @@ void reportVersion(const Reporter& report) {
   const DeclaredResource& resource = report.declaration.resources[report.request.resource];
   std::string last;
   for (const DeclaredAccess& access : report.declaration.accessesOfResource(report.request.resource)) {
-    if (access.writes()) last = report.declaration.passes[access.pass].name;
+    if (!access.writes()) continue;
+    last = report.declaration.passes[access.pass].name;
+    break;
   }
   report(Misuse::staleVersion,
          "version " + std::to_string(report.request.version) + " is used, but pass " + quoted(last) +
@@ -139,21 +141,7 @@ void checkSamples(const Reporter& report, const DeclaredAccess& attachment, cons
 
 }  // namespace
 
-VkPipelineStageFlags2 shaderStagesOf(PassKind kind) {
-  switch (kind) {
-    case PassKind::raster:
-      return VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_GEOMETRY_SHADER_BIT |
-             VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
-    case PassKind::compute:
-      return VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-    case PassKind::transfer:
-    case PassKind::host:
-      return 0;
-  }
-  return 0;
-}
-
-void checkAccess(Declaration& declaration, const AccessRequest& request, const AccessRules& rules) {
+void checkAccess(Declaration& declaration, AccessRequest request, const AccessRules& rules) {
   const DeclaredResource& resource = declaration.resources[request.resource];
   const Reporter report{declaration, request};
   if (request.version != resource.version) [[unlikely]] {
@@ -166,9 +154,9 @@ void checkAccess(Declaration& declaration, const AccessRequest& request, const A
   }
 }
 
-Subresources checkedRange(Declaration& declaration, const AccessRequest& request) {
+Subresources checkedRange(Declaration& declaration, AccessRequest request) {
   const DeclaredResource& resource = declaration.resources[request.resource];
-  if (!resource.isImage) return {.firstMip = 0, .mipCount = 1, .firstLayer = 0, .layerCount = 1, .aspects = 0};
+  if (!resource.isImage) return kWholeBuffer;
   const Subresources asked = resolved(request.range, resource.image);
   if (inside(asked, resource.image)) [[likely]] {
     return asked;
@@ -177,8 +165,7 @@ Subresources checkedRange(Declaration& declaration, const AccessRequest& request
   return resolved({}, resource.image);
 }
 
-void checkConflicts(Declaration& declaration, const AccessRequest& request, const Subresources& range,
-                    VkImageLayout layout) {
+void checkConflicts(Declaration& declaration, AccessRequest request, const Subresources& range, VkImageLayout layout) {
   const DeclaredResource& resource = declaration.resources[request.resource];
   const Reporter report{declaration, request};
   for (const DeclaredAccess& other : declaration.accessesOfPass(request.pass)) {
@@ -198,7 +185,7 @@ void checkConflicts(Declaration& declaration, const AccessRequest& request, cons
   }
 }
 
-void checkAttachment(Declaration& declaration, const AccessRequest& request) {
+void checkAttachment(Declaration& declaration, AccessRequest request) {
   DeclaredPass& pass = declaration.passes[request.pass];
   const Reporter report{declaration, request};
   const DeclaredAccess& access = declaration.accesses.back();

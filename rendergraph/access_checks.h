@@ -10,33 +10,41 @@ namespace rendergraph {
 
 /// An access as the host asked for it.
 struct AccessRequest {
-  uint32_t pass;
   uint32_t resource;
   uint32_t version;
+  uint32_t pass;
   Usage usage;
   AccessMode mode;
-  Subresources range;
-  VkPipelineStageFlags2 stages;
-  std::source_location where;
   AttachmentRole role = AttachmentRole::none;
   LoadOp load = LoadOp::dontCare;
-  VkClearValue clear = {};
+  const Subresources& range;
+  VkPipelineStageFlags2 stages = 0;
+  std::source_location where;
 };
 
+/// The range of an access to a buffer.
+inline constexpr Subresources kWholeBuffer{
+    .firstMip = 0, .mipCount = 1, .firstLayer = 0, .layerCount = 1, .aspects = 0};
+
 /// Shader stages that a kind of pass has; 0: none.
-VkPipelineStageFlags2 shaderStagesOf(PassKind kind);
+inline VkPipelineStageFlags2 shaderStagesOf(PassKind kind) {
+  constexpr VkPipelineStageFlags2 kRaster = VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT |
+                                            VK_PIPELINE_STAGE_2_GEOMETRY_SHADER_BIT |
+                                            VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
+  if (kind == PassKind::compute) return VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+  return kind == PassKind::raster ? kRaster : 0;
+}
 
 /// Version, usage and format. `rules` are those of the request.
-void checkAccess(Declaration& declaration, const AccessRequest& request, const AccessRules& rules);
+void checkAccess(Declaration& declaration, AccessRequest request, const AccessRules& rules);
 
 /// The requested range with its defaults replaced; one outside the image is reported, and the whole image returned.
-Subresources checkedRange(Declaration& declaration, const AccessRequest& request);
+Subresources checkedRange(Declaration& declaration, AccessRequest request);
 
 /// Whether the access may stand beside the other accesses of its pass to the same subresources.
-void checkConflicts(Declaration& declaration, const AccessRequest& request, const Subresources& range,
-                    VkImageLayout layout);
+void checkConflicts(Declaration& declaration, AccessRequest request, const Subresources& range, VkImageLayout layout);
 
 /// Size, layers and samples of the attachment declared last against the others of its pass.
-void checkAttachment(Declaration& declaration, const AccessRequest& request);
+void checkAttachment(Declaration& declaration, AccessRequest request);
 
 }  // namespace rendergraph

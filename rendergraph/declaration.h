@@ -1,5 +1,5 @@
 // The plain data behind a Graph: what was declared, in the order of the calls, with every default resolved.
-// compile() reads it, nothing changes it but Graph and Pass. Vectors and arena keep their memory over reset().
+// compile() reads it, nothing changes it but Graph and Pass. Records and arena keep their memory over reset().
 #pragma once
 
 #include <vulkan/vulkan_core.h>
@@ -16,6 +16,7 @@
 #include "rendergraph/arena.h"
 #include "rendergraph/error.h"
 #include "rendergraph/pass.h"
+#include "rendergraph/records.h"
 #include "rendergraph/resource.h"
 
 namespace rendergraph {
@@ -49,8 +50,10 @@ struct ResourceStructure {
 static_assert(std::has_unique_object_representations_v<ResourceStructure>);
 
 struct DeclaredResource : ResourceStructure {
-  uint32_t firstAccess = kNone, lastAccess = kNone;  ///< Linked through DeclaredAccess::nextOfResource.
-  std::string_view name;                             ///< For people.
+  uint32_t lastAccess = kNone;  ///< Linked through DeclaredAccess::previousOfResource.
+  uint32_t lastPass = kNone;    ///< Of that access.
+  bool ordinary = false;        ///< Of the graph, of right shape, a buffer or a colour image.
+  std::string_view name;        ///< For people.
   std::source_location where;
   // Nothing below is used by a plain resource of the graph.
   std::string_view key;  ///< Persistent and history: the name under which the executor keeps it.
@@ -59,6 +62,7 @@ struct DeclaredResource : ResourceStructure {
   AccessState before;  ///< Imported only.
   AccessState after;   ///< Imported or exported.
 
+  DeclaredResource() {}  // Written out: a default constructor of the compiler's clears all bytes first.
   bool created() const { return origin == Origin::created; }
   bool imported() const { return origin == Origin::imported; }
   /// Kept by the executor.
@@ -84,13 +88,14 @@ static_assert(std::has_unique_object_representations_v<AccessStructure>);
 
 struct DeclaredAccess : AccessStructure {
   uint32_t nextOfPass = kNone;                       ///< Next access of the same pass, in order of calls.
-  uint32_t nextOfResource = kNone;                   ///< Next access of the same resource, in order of calls.
+  uint32_t previousOfResource = kNone;               ///< The access of the same resource before, in order of calls.
   uint32_t version = 0;                              ///< Of the handle that was given.
   VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;  ///< Agreed among overlapping accesses of the pass.
   VkAccessFlags2 access = 0;
   VkClearValue clear = {};
   std::source_location where;
 
+  DeclaredAccess() {}  // As above.
   bool writes() const { return mode != AccessMode::read; }
   bool needsContent() const { return mode != AccessMode::write; }
 };
@@ -116,6 +121,8 @@ struct DeclaredPass : PassStructure {
   void* recording = nullptr;
   Recorder recorder = nullptr;
   Destroyer destroyer = nullptr;  ///< None for a recording that needs no destruction.
+
+  DeclaredPass() {}  // As above.
 };
 
 /// The accesses of one pass or of one resource, for range-for.
@@ -123,7 +130,7 @@ template <uint32_t DeclaredAccess::*Next>
 class AccessList {
  public:
   struct Iterator {
-    const std::vector<DeclaredAccess>* accesses;
+    const Records<DeclaredAccess>* accesses;
     uint32_t index;
     const DeclaredAccess& operator*() const { return (*accesses)[index]; }
     Iterator& operator++() {
@@ -132,20 +139,20 @@ class AccessList {
     }
     bool operator!=(const Iterator& other) const { return index != other.index; }
   };
-  AccessList(const std::vector<DeclaredAccess>& accesses, uint32_t first) : accesses_(&accesses), first_(first) {}
+  AccessList(const Records<DeclaredAccess>& accesses, uint32_t first) : accesses_(&accesses), first_(first) {}
   Iterator begin() const { return {accesses_, first_}; }
   Iterator end() const { return {accesses_, kNone}; }
 
  private:
-  const std::vector<DeclaredAccess>* accesses_;
+  const Records<DeclaredAccess>* accesses_;
   uint32_t first_;
 };
 
 struct Declaration {
   uint32_t serial = 0;  ///< Stamped on handles, so that those of another declaration are recognised.
-  std::vector<DeclaredResource> resources;
-  std::vector<DeclaredPass> passes;
-  std::vector<DeclaredAccess> accesses;  ///< In order of calls.
+  Records<DeclaredResource> resources;
+  Records<DeclaredPass> passes;
+  Records<DeclaredAccess> accesses;  ///< In order of calls.
   std::vector<GraphError::Problem> problems;
   Arena arena;
   /// Whether every access was declared before those of later passes, so that the order of the passes is one in which
@@ -164,8 +171,9 @@ struct Declaration {
   AccessList<&DeclaredAccess::nextOfPass> accessesOfPass(uint32_t pass) const {
     return {accesses, passes[pass].firstAccess};
   }
-  AccessList<&DeclaredAccess::nextOfResource> accessesOfResource(uint32_t resource) const {
-    return {accesses, resources[resource].firstAccess};
+  /// The latest first.
+  AccessList<&DeclaredAccess::previousOfResource> accessesOfResource(uint32_t resource) const {
+    return {accesses, resources[resource].lastAccess};
   }
 
   /// Notes a misuse to be thrown by compile(). kNone for a pass or resource that is not concerned.

@@ -52,14 +52,16 @@ bool shapeIsRight(const ImageDesc& desc) {
 
 uint32_t addImage(Declaration& declaration, std::string_view name, const ImageDesc& desc, Origin origin,
                   std::source_location where) {
-  const auto index = static_cast<uint32_t>(declaration.resources.size());
-  DeclaredResource& resource = declaration.resources.emplace_back();
+  const uint32_t index = declaration.resources.size();
+  DeclaredResource& resource = declaration.resources.add();
   resource.name = declaration.arena.copy(name);
   resource.where = where;
   resource.origin = origin;
   resource.image = desc;
   resource.aspects = aspectsOf(desc.format);
-  if (!shapeIsRight(desc)) [[unlikely]] {
+  if (shapeIsRight(desc)) [[likely]] {
+    resource.ordinary = origin == Origin::created && resource.aspects == VK_IMAGE_ASPECT_COLOR_BIT;
+  } else {
     reportImageShape(declaration, index);
   }
   return index;
@@ -67,13 +69,14 @@ uint32_t addImage(Declaration& declaration, std::string_view name, const ImageDe
 
 uint32_t addBuffer(Declaration& declaration, std::string_view name, const BufferDesc& desc, Origin origin,
                    std::source_location where) {
-  const auto index = static_cast<uint32_t>(declaration.resources.size());
-  DeclaredResource& resource = declaration.resources.emplace_back();
+  const uint32_t index = declaration.resources.size();
+  DeclaredResource& resource = declaration.resources.add();
   resource.name = declaration.arena.copy(name);
   resource.where = where;
   resource.isImage = false;
   resource.origin = origin;
   resource.buffer = desc;
+  resource.ordinary = origin == Origin::created;
   if (desc.size == 0) {
     declaration.report(Misuse::overLimit, kNone, index, "its size is zero", "give it at least one byte", where);
   }
@@ -229,11 +232,11 @@ void Graph::finishTaps() {
 
 Pass Graph::addPass(std::string_view name, PassKind kind, Location where) {
   if (taps_ != nullptr) finishTaps();
-  DeclaredPass& pass = declaration_->passes.emplace_back();
+  DeclaredPass& pass = declaration_->passes.add();
   pass.name = declaration_->arena.copy(name);
   pass.kind = kind;
   pass.where = where;
-  return Pass(*this, static_cast<uint32_t>(declaration_->passes.size() - 1));
+  return Pass(*this, declaration_->passes.size() - 1);
 }
 
 const ImageDesc& Graph::desc(Image image) const {

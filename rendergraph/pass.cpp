@@ -30,42 +30,18 @@ void agreeOnLayouts(Declaration& declaration, uint32_t pass, uint32_t resource) 
   }
 }
 
-/// Room for one more access, linked to its pass and its resource.
-DeclaredAccess& append(Declaration& declaration, uint32_t passIndex, uint32_t resourceIndex) {
-  const auto index = static_cast<uint32_t>(declaration.accesses.size());
-  DeclaredAccess& access = declaration.accesses.emplace_back();
-  access.pass = passIndex;
-  access.resource = resourceIndex;
-  DeclaredPass& pass = declaration.passes[passIndex];
-  DeclaredResource& resource = declaration.resources[resourceIndex];
-  if (passIndex < declaration.latestPass) declaration.inOrder = false;
-  declaration.latestPass = passIndex;
-  (pass.lastAccess == kNone ? pass.firstAccess : declaration.accesses[pass.lastAccess].nextOfPass) = index;
-  (resource.lastAccess == kNone ? resource.firstAccess : declaration.accesses[resource.lastAccess].nextOfResource) =
-      index;
-  pass.lastAccess = resource.lastAccess = index;
-  return access;
-}
-
 /// Whether the pass has used the resource before.
 bool usedBefore(const Declaration& declaration, uint32_t pass, uint32_t resource) {
+  if (declaration.resources[resource].lastPass == pass) return true;
   for (const DeclaredAccess& access : declaration.accessesOfPass(pass)) {
     if (access.resource == resource) return true;
   }
   return false;
 }
 
-/// The usual case, in which checkAccess() would find nothing: a colour image or a buffer of the graph.
-bool plainlyRight(const AccessRequest& request, const DeclaredResource& resource, const AccessRules& rules) {
-  if (request.version != resource.version || !resource.created() || !rules.possible || rules.stages == 0) return false;
-  if (!resource.isImage) return rules.bufferUsage != 0 && request.usage != Usage::host;
-  return rules.imageUsage != 0 && resource.aspects == VK_IMAGE_ASPECT_COLOR_BIT &&
-         request.usage != Usage::depthAttachment && request.usage != Usage::depthReadOnly;
-}
-
-bool isWhole(const Subresources& range, const DeclaredResource& resource) {
-  return resource.isImage && range == Subresources{} && resource.image.mips != 0 && resource.image.layers != 0 &&
-         resource.aspects != 0;
+VkPipelineStageFlags2 stagesOf(const AccessRules& rules, const AccessRequest& request, PassKind kind) {
+  if (rules.stages != 0) return rules.stages;
+  return request.stages != 0 ? request.stages : shaderStagesOf(kind);
 }
 
 Subresources wholeOf(const DeclaredResource& resource) {
@@ -76,36 +52,74 @@ Subresources wholeOf(const DeclaredResource& resource) {
           .aspects = resource.aspects};
 }
 
-/// Checks and stores one access. Returns the version of the resource afterwards.
-uint32_t addAccess(Declaration& declaration, const AccessRequest& request) {
-  const DeclaredPass& pass = declaration.passes[request.pass];
+/// The usual case, in which the checks find nothing: an ordinary resource, as a whole, in the latest version, for the
+/// first time in the pass that was declared last.
+[[gnu::always_inline]] inline bool isPlain(const Declaration& declaration, const AccessRequest& request,
+                                           const DeclaredResource& resource) {
+  const AccessRules& rules = rulesOf(request.usage, request.mode);
+  return resource.ordinary && request.version == resource.version && request.range.namesAll() &&
+         (resource.isImage ? rules.anyColorImage : rules.anyBuffer) && resource.lastPass != request.pass &&
+         request.pass >= declaration.latestPass && declaration.inOrder;
+}
+
+/// Stores an access and links it to its pass and its resource. Returns the version of the resource afterwards.
+[[gnu::always_inline]] inline uint32_t store(Declaration& declaration, const AccessRequest& request,
+                                             const Subresources& range, VkPipelineStageFlags2 stages) {
+  const uint32_t index = declaration.accesses.size();
+  const AccessRules& rules = rulesOf(request.usage, request.mode);
+  DeclaredPass& pass = declaration.passes[request.pass];
   DeclaredResource& resource = declaration.resources[request.resource];
-  if (pass.disabled) return request.version;  // As if the call had not been made.
-  const VkPipelineStageFlags2 stages = request.stages != 0 ? request.stages : shaderStagesOf(pass.kind);
-  const AccessRules rules = rulesOf(request.usage, request.mode, stages);
-  if (!plainlyRight(request, resource, rules)) checkAccess(declaration, request, rules);
-  const Subresources range = isWhole(request.range, resource) ? wholeOf(resource) : checkedRange(declaration, request);
-  const bool again = usedBefore(declaration, request.pass, request.resource);
-  if (again) checkConflicts(declaration, request, range, rules.layout);
-  DeclaredAccess& access = append(declaration, request.pass, request.resource);
+  DeclaredAccess& access = declaration.accesses.add();
+  access.pass = request.pass;
+  access.resource = request.resource;
   access.usage = request.usage;
   access.mode = request.mode;
   access.role = request.role;
   access.load = request.load;
   access.range = range;
-  access.stages = rules.stages;
+  access.stages = stages;
+  access.previousOfResource = resource.lastAccess;
   access.version = request.version;
   access.layout = resource.isImage ? rules.layout : VK_IMAGE_LAYOUT_UNDEFINED;
   access.access = rules.access;
-  access.clear = request.clear;
   access.where = request.where;
-  if (again && resource.isImage) agreeOnLayouts(declaration, request.pass, request.resource);
+  if (request.pass < declaration.latestPass) declaration.inOrder = false;
+  declaration.latestPass = request.pass;
+  (pass.lastAccess == kNone ? pass.firstAccess : declaration.accesses[pass.lastAccess].nextOfPass) = index;
+  pass.lastAccess = resource.lastAccess = index;
+  resource.lastPass = request.pass;
   return request.mode == AccessMode::read ? resource.version : ++resource.version;
 }
 
-uint32_t addAttachment(Declaration& declaration, const AccessRequest& request) {
+/// Every case.
+[[gnu::noinline]] uint32_t checkAndStore(Declaration& declaration, AccessRequest request) {
+  const DeclaredResource& resource = declaration.resources[request.resource];
+  const AccessRules& rules = rulesOf(request.usage, request.mode);
+  const VkPipelineStageFlags2 stages = stagesOf(rules, request, declaration.passes[request.pass].kind);
+  checkAccess(declaration, request, rules);
+  const Subresources range = checkedRange(declaration, request);
+  const bool again = usedBefore(declaration, request.pass, request.resource);
+  if (again) checkConflicts(declaration, request, range, rules.layout);
+  const uint32_t version = store(declaration, request, range, stages);
+  if (again && resource.isImage) agreeOnLayouts(declaration, request.pass, request.resource);
+  return version;
+}
+
+/// Checks and stores one access. Returns the version of the resource afterwards.
+[[gnu::always_inline]] inline uint32_t addAccess(Declaration& declaration, const AccessRequest& request) {
+  const DeclaredPass& pass = declaration.passes[request.pass];
+  const DeclaredResource& resource = declaration.resources[request.resource];
+  if (pass.disabled) return request.version;  // As if the call had not been made.
+  const VkPipelineStageFlags2 stages = stagesOf(rulesOf(request.usage, request.mode), request, pass.kind);
+  if (stages == 0 || !isPlain(declaration, request, resource)) return checkAndStore(declaration, request);
+  return store(declaration, request, resource.isImage ? wholeOf(resource) : kWholeBuffer, stages);
+}
+
+uint32_t addAttachment(Declaration& declaration, const AccessRequest& request, const VkClearValue& clear = {}) {
   const uint32_t version = addAccess(declaration, request);
-  if (!declaration.passes[request.pass].disabled) checkAttachment(declaration, request);
+  if (declaration.passes[request.pass].disabled) return version;
+  declaration.accesses.back().clear = clear;
+  checkAttachment(declaration, request);
   return version;
 }
 
@@ -116,9 +130,9 @@ AccessMode modeOf(LoadOp load) {
 template <class Tag>
 uint32_t addPlain(Declaration& declaration, uint32_t pass, const Handle<Tag>& handle, Usage usage, AccessMode mode,
                   const Subresources& range, VkPipelineStageFlags2 stages, std::source_location where) {
-  return addAccess(declaration, {.pass = pass,
-                                 .resource = declaration.indexOf(handle, pass, where),
+  return addAccess(declaration, {.resource = declaration.indexOf(handle, pass, where),
                                  .version = handle.version,
+                                 .pass = pass,
                                  .usage = usage,
                                  .mode = mode,
                                  .range = range,
@@ -168,65 +182,60 @@ Buffer Pass::modify(Buffer buffer, Usage usage, VkPipelineStageFlags2 stages, Lo
 
 Image Pass::color(Image image, const ColorAttachment& attachment, Location where) {
   Declaration& declaration = *graph_->declaration_;
-  AccessRequest request{.pass = index_,
-                        .resource = declaration.indexOf(image, index_, where),
-                        .version = image.version,
-                        .usage = Usage::colorAttachment,
-                        .mode = modeOf(attachment.load),
-                        .range = attachment.range,
-                        .stages = 0,
-                        .where = where,
-                        .role = AttachmentRole::color,
-                        .load = attachment.load};
-  request.clear.color = attachment.clear;
-  image.version = addAttachment(declaration, request);
+  image.version = addAttachment(declaration,
+                                {.resource = declaration.indexOf(image, index_, where),
+                                 .version = image.version,
+                                 .pass = index_,
+                                 .usage = Usage::colorAttachment,
+                                 .mode = modeOf(attachment.load),
+                                 .role = AttachmentRole::color,
+                                 .load = attachment.load,
+                                 .range = attachment.range,
+                                 .where = where},
+                                {.color = attachment.clear});
   return image;
 }
 
 Image Pass::depth(Image image, const DepthAttachment& attachment, Location where) {
   Declaration& declaration = *graph_->declaration_;
-  AccessRequest request{.pass = index_,
-                        .resource = declaration.indexOf(image, index_, where),
-                        .version = image.version,
-                        .usage = Usage::depthAttachment,
-                        .mode = modeOf(attachment.load),
-                        .range = attachment.range,
-                        .stages = 0,
-                        .where = where,
-                        .role = AttachmentRole::depth,
-                        .load = attachment.load};
-  request.clear.depthStencil = {.depth = attachment.clear, .stencil = 0};
-  image.version = addAttachment(declaration, request);
+  image.version = addAttachment(declaration,
+                                {.resource = declaration.indexOf(image, index_, where),
+                                 .version = image.version,
+                                 .pass = index_,
+                                 .usage = Usage::depthAttachment,
+                                 .mode = modeOf(attachment.load),
+                                 .role = AttachmentRole::depth,
+                                 .load = attachment.load,
+                                 .range = attachment.range,
+                                 .where = where},
+                                {.depthStencil = {.depth = attachment.clear, .stencil = 0}});
   return image;
 }
 
 Image Pass::resolve(Image target, Subresources range, Location where) {
   Declaration& declaration = *graph_->declaration_;
-  target.version = addAttachment(declaration, {.pass = index_,
-                                               .resource = declaration.indexOf(target, index_, where),
+  target.version = addAttachment(declaration, {.resource = declaration.indexOf(target, index_, where),
                                                .version = target.version,
+                                               .pass = index_,
                                                .usage = Usage::colorAttachment,
                                                .mode = AccessMode::write,
+                                               .role = AttachmentRole::resolve,
                                                .range = range,
-                                               .stages = 0,
-                                               .where = where,
-                                               .role = AttachmentRole::resolve});
+                                               .where = where});
   return target;
 }
 
 void Pass::depthReadOnly(Image image, Subresources range, Location where) {
   Declaration& declaration = *graph_->declaration_;
-  const AccessRequest request{.pass = index_,
-                              .resource = declaration.indexOf(image, index_, where),
+  addAttachment(declaration, {.resource = declaration.indexOf(image, index_, where),
                               .version = image.version,
+                              .pass = index_,
                               .usage = Usage::depthReadOnly,
                               .mode = AccessMode::read,
-                              .range = range,
-                              .stages = 0,
-                              .where = where,
                               .role = AttachmentRole::depth,
-                              .load = LoadOp::load};
-  addAttachment(declaration, request);
+                              .load = LoadOp::load,
+                              .range = range,
+                              .where = where});
 }
 
 void Pass::renderArea(VkExtent2D extent, uint32_t layers) {

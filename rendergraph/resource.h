@@ -16,6 +16,8 @@ struct Subresources {
   uint32_t layerCount = kAll;      ///< kAll: to the last layer.
   VkImageAspectFlags aspects = 0;  ///< 0: every aspect of the format.
   bool operator==(const Subresources&) const = default;
+  /// Whether it is the default. By bits, since every declared access asks.
+  constexpr bool namesAll() const { return (firstMip | firstLayer | aspects) == 0 && (mipCount & layerCount) == kAll; }
 };
 
 /// One mip, all layers.

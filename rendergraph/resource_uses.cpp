@@ -9,7 +9,7 @@ std::vector<ResourceUse> findUses(const Declaration& declaration, std::span<cons
   std::vector<ResourceUse> uses(declaration.resources.size());
   for (const DeclaredAccess& access : declaration.accesses) {
     if (!alive[access.pass]) continue;
-    const AccessRules rules = rulesOf(access.usage, access.mode, access.stages);
+    const AccessRules& rules = rulesOf(access.usage, access.mode);
     ResourceUse& use = uses[access.resource];
     use.used = true;
     use.image |= rules.imageUsage;

@@ -431,7 +431,7 @@ std::vector<Record> ResourceReplay::records() const {
 }
 
 std::string ResourceReplay::nameOfPass(uint32_t pass) const {
-  const std::vector<DeclaredPass>& passes = setting_.declaration.passes;
+  const auto& passes = setting_.declaration.passes;
   return pass < passes.size() ? "'" + std::string(passes[pass].name) + "'" : "the host";
 }
 
