@@ -45,7 +45,8 @@ struct AccessRules {
   bool anyBuffer;                  ///< Right for every buffer of the graph.
 };
 
-inline constexpr std::size_t kUsages = 12, kAccessModes = 3;
+inline constexpr std::size_t kUsages = static_cast<std::size_t>(Usage::host) + 1;
+inline constexpr std::size_t kAccessModes = static_cast<std::size_t>(AccessMode::modify) + 1;
 /// Of each usage in each mode. A table, since every declared access asks it.
 extern const std::array<AccessRules, kUsages * kAccessModes> kAccessRules;
 

@@ -8,7 +8,8 @@
 
 namespace rendergraph {
 
-/// An access as the host asked for it.
+/// An access as the host asked for it. The checks take it by value: one whose address leaves the caller would have to
+/// be put together in memory for every access, and most need no check.
 struct AccessRequest {
   uint32_t resource;
   uint32_t version;

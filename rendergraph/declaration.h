@@ -63,6 +63,7 @@ struct DeclaredResource : ResourceStructure {
   AccessState after;   ///< Imported or exported.
 
   DeclaredResource() {}  // Written out: a default constructor of the compiler's clears all bytes first.
+
   bool created() const { return origin == Origin::created; }
   bool imported() const { return origin == Origin::imported; }
   /// Kept by the executor.
@@ -96,6 +97,7 @@ struct DeclaredAccess : AccessStructure {
   std::source_location where;
 
   DeclaredAccess() {}  // As above.
+
   bool writes() const { return mode != AccessMode::read; }
   bool needsContent() const { return mode != AccessMode::write; }
 };

@@ -62,7 +62,9 @@ class Graph {
 
   /// An image or buffer that the executor keeps across frames under its name, zeroed when it is first made and
   /// whenever its description changes. The name must be unique among the persistent resources of one executor.
-  /// Writing it counts as observable. Never aliased.
+  /// Writing it counts as observable. Never aliased. It exists once, not once for each frame in flight: the device keeps
+  /// successive frames apart, but what Executor::mapped() shows of an upload or readback buffer, later frames overwrite
+  /// while the host looks. Wait for all that were submitted.
   Image persistentImage(std::string_view name, const ImageDesc& desc, Location where = Location::current());
   Buffer persistentBuffer(std::string_view name, const BufferDesc& desc, Location where = Location::current());
   /// Two persistent images that change places each frame.

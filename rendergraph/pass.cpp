@@ -91,7 +91,7 @@ Subresources wholeOf(const DeclaredResource& resource) {
   return request.mode == AccessMode::read ? resource.version : ++resource.version;
 }
 
-/// Every case.
+/// Every case, with all checks.
 [[gnu::noinline]] uint32_t checkAndStore(Declaration& declaration, AccessRequest request) {
   const DeclaredResource& resource = declaration.resources[request.resource];
   const AccessRules& rules = rulesOf(request.usage, request.mode);

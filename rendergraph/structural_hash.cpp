@@ -1,6 +1,6 @@
 // The key of the plan cache: every byte of the structures that compile() reads, and the options. Names, recordings,
 // clear values, source locations and the host's Vulkan objects are not in them, so that changing those keeps the plan.
-// The mixing is that of wyhash (Wang Yi, "wyhash", public domain): 128-bit products of 16 bytes at a time.
+// The mixing is after wyhash (Wang Yi, "wyhash", public domain): 128-bit products of 16 bytes at a time.
 #include <bit>
 #include <cstring>
 #include <iterator>

@@ -121,6 +121,20 @@ TEST(Misuse, DoubleWrite) {
   });
 }
 
+TEST(Misuse, DoubleWriteWithAnotherPassInBetween) {
+  const auto problems = problemsOf([](Graph& graph) {
+    Image image = graph.createImage("image", kColor);
+    Pass first = graph.addPass("first", PassKind::compute);
+    Pass second = graph.addPass("second", PassKind::compute);
+    image = first.write(image, Usage::storage);
+    second.sample(image);
+    image = first.write(image, Usage::storage);
+  });
+  ASSERT_FALSE(problems.empty());
+  EXPECT_EQ(problems[0].misuse, Misuse::doubleWrite) << nameOf(problems[0].misuse);
+  EXPECT_EQ(problems[0].pass, "first");
+}
+
 TEST(Misuse, WritesOfDifferentLayersAreNoDoubleWrite) {
   EXPECT_TRUE(problemsOf([](Graph& graph) {
                 ImageDesc desc = kColor;
