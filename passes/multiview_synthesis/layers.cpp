@@ -12,14 +12,15 @@ struct Interval {
   double length() const { return nearVergence - farVergence; }
 };
 
-/// Closes the smallest gaps until no more than `most` intervals are left.
-void closeGaps(std::vector<Interval>& intervals, std::size_t most) {
-  while (intervals.size() > most) {
-    std::size_t best = 0;
+/// Closes gaps narrower than `least`, and the smallest ones until no more than `most` intervals are left.
+void closeGaps(std::vector<Interval>& intervals, std::size_t most, double least) {
+  while (intervals.size() > 1) {
     const auto gap = [&](std::size_t i) { return intervals[i].farVergence - intervals[i + 1].nearVergence; };
+    std::size_t best = 0;
     for (std::size_t i = 1; i + 1 < intervals.size(); ++i) {
       if (gap(i) < gap(best)) best = i;
     }
+    if (intervals.size() <= most && gap(best) >= least) return;
     intervals[best].farVergence = intervals[best + 1].farVergence;
     intervals.erase(intervals.begin() + static_cast<std::ptrdiff_t>(best) + 1);
   }
@@ -72,7 +73,7 @@ std::vector<shared::SceneLayer> sceneLayers(std::span<const VergenceInterval> oc
   auto intervals = padded(occupied, 0.01 * wanted);
   const bool isFixed = spacing.fixedCount > 0;
   const uint32_t most = isFixed ? std::min(spacing.fixedCount, spacing.mostLayers) : spacing.mostLayers;
-  closeGaps(intervals, most);
+  closeGaps(intervals, most, isFixed ? 0.0 : 0.25 * wanted);
   const double whole = intervals.front().nearVergence - intervals.back().farVergence;
   const double thickness = thicknessFor(intervals, isFixed ? 0.01 * whole / most : wanted, most);
 

@@ -29,6 +29,12 @@ uint32_t roundedUp(double value, uint32_t multiple) {
   return static_cast<uint32_t>(std::ceil(value / multiple)) * multiple;
 }
 
+/// Largest |c| that any layer's content or the background has, px.
+double largestBlur(const shared::LensConstants& lens, std::span<const shared::SceneLayer> layers) {
+  const auto blur = [&](float vergence) { return double{lens.cocScale} * std::abs(lens.focusVergence - vergence); };
+  return std::max(blur(layers.front().nearest), blur(0.0f));
+}
+
 ViewPlan viewPlan(const DofInputs& inputs, const Parameters& parameters, LensView view, std::string prefix) {
   ViewPlan plan;
   plan.prefix = std::move(prefix);
@@ -46,16 +52,14 @@ ViewPlan viewPlan(const DofInputs& inputs, const Parameters& parameters, LensVie
                                        .mostLayers = shared::kMaxSceneLayers / (scene.hasTransparency ? 2 : 1)});
   plan.view = std::move(view);
 
-  const auto blur = [&](float vergence) {
-    return inputs.lens.cocScale * std::abs(inputs.lens.focusVergence - vergence);
-  };
-  const double largest = std::max(blur(plan.layers.front().nearest), blur(plan.layers.back().farthest));
   plan.coneDiameter = static_cast<float>(coneDiameterOf(parameters));
-  const double cone = std::min(plan.coneDiameter * largest, 256.0);
+  const double cone = std::min(plan.coneDiameter * largestBlur(inputs.lens, plan.layers), 256.0);
   plan.mips = cone > 1.0 ? 1 + static_cast<uint32_t>(std::ceil(std::log2(cone))) : 1;
 
   const auto [width, height] = inputs.extent;
-  const double border = std::min(parameters.border * largest * reach, kWidestBorder * std::max(width, height));
+  const double wanted = largestBlur(inputs.lens, plan.layers) * reach;
+  const double border = std::min(parameters.border * wanted, kWidestBorder * std::max(width, height));
+  plan.raysMayLeave = border < wanted;
   const auto side = static_cast<int32_t>(std::ceil(border) + 1.0);
   plan.border = {side, side};
   const uint32_t multiple = std::max(shared::kMultiviewCell, 1u << (plan.mips - 1));
@@ -80,8 +84,8 @@ std::span<const Field<Parameters>> fields() {
       number<&Parameters::iterations>("iterations", "", 1, 8, "Looks of the false position at a layer's surface."),
       choice<&Parameters::search, kSearchNames>(
           "search",
-          "How a ray finds a layer's surface: falsePosition (the paper), or scan, "
-          "a look every half pixel, which costs more where layers are thick."),
+          "How a ray finds a layer's surface: falsePosition (the paper), which widens thin objects by up to delta, or "
+          "scan, a look at every pixel on its way."),
       number<&Parameters::coneWidth>("coneWidth", "", 0.0, 8.0,
                                      "Diameter of the cones around rays, 1 being the paper's; 0 traces lines. Wider "
                                      "hides noise and softens what is hidden behind edges."),

@@ -292,10 +292,13 @@ Image declareTrace(Graph& graph, const ViewPlan& plan, const Tables& tables, con
                                  .vergenceScale = lens.vergenceScale,
                                  .coneDiameter = plan.coneDiameter,
                                  .noiseReach = noiseReach(static_cast<uint32_t>(plan.parameters.lensSamples))};
-    const std::array<uint32_t, 6> specialization = {
-        static_cast<uint32_t>(plan.parameters.jitter),     static_cast<uint32_t>(plan.parameters.search),
-        static_cast<uint32_t>(plan.parameters.iterations), plan.mips > 1 ? 1u : 0u,
-        plan.sliceCount() > plan.layerCount() ? 1u : 0u,   visits ? 1u : 0u};
+    const std::array<uint32_t, 7> specialization = {static_cast<uint32_t>(plan.parameters.jitter),
+                                                    static_cast<uint32_t>(plan.parameters.search),
+                                                    static_cast<uint32_t>(plan.parameters.iterations),
+                                                    plan.mips > 1 ? 1u : 0u,
+                                                    plan.sliceCount() > plan.layerCount() ? 1u : 0u,
+                                                    visits ? 1u : 0u,
+                                                    plan.raysMayLeave ? 1u : 0u};
     pass.record([=, extent = plan.inputs.extent](PassContext& context) {
       const rendergraph::SamplerDesc trilinear{.mipmap = VK_SAMPLER_MIPMAP_MODE_LINEAR};
       const std::array bindings = {rendergraph::sampled(images.color, trilinear, {}, kArray),

@@ -22,6 +22,7 @@ struct ViewPlan {
   std::vector<shared::SceneLayer> layers;
   VkExtent2D size;            ///< px, of the layers; a multiple of the cells and of the coarsest mip level's texels.
   shared::ivec2 border;       ///< px of the layers to the left of and above the picture.
+  bool raysMayLeave = false;  ///< Some rays reach beyond the layers.
   uint32_t mips = 1;          ///< Of the layers' colour.
   float coneDiameter = 0.0f;  ///< λ, px per px of |c|; 0: lines.
 

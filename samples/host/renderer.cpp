@@ -133,6 +133,7 @@ struct Renderer::State {
   std::optional<engine::Scene> scene;
   std::unique_ptr<engine::SceneRenderer> renderer;
   passes::SceneDraw sceneDraw;
+  std::vector<passes::VergenceInterval> occupied;  ///< What sceneDraw refers to.
 };
 
 Renderer::Renderer(engine::Device& device, const Shot& shot, std::vector<std::string>& warnings)
@@ -163,8 +164,15 @@ DofInputs Renderer::State::sceneInputs(const Shot& shot) {
   renderer->setViewpoint({.viewFromWorld = camera.viewFromWorld,
                           .metersPerUnit = shot.lens.metersPerUnit,
                           .lit = shot.shading == Shading::lit});
-  const auto range = engine::visibleRange(*scene, camera, width, height, 0.0, shot.lens.metersPerUnit);
+  const engine::LensOpening opening{engine::apertureRadius(shot.lens) * shared::apertureReach(inputs.aperture),
+                                    inputs.lens.focusVergence};
+  const auto range = engine::visibleRange(*scene, camera, width, height, opening, shot.lens.metersPerUnit);
   sceneDraw.nearestVergence = range.isEmpty ? 0.0f : static_cast<float>(1.0 / range.nearestDepth);
+  occupied.clear();
+  for (const auto& span : range.spans) {
+    occupied.push_back({static_cast<float>(1.0 / span.farthest), static_cast<float>(1.0 / span.nearest)});
+  }
+  sceneDraw.occupied = occupied;
   sceneDraw.farthestVergence = 0.0f;  // The background may always show.
   sceneDraw.hasTransparency = renderer->hasTransparency();
   sceneDraw.record = [this](PassContext& context, const passes::SceneDrawCall& call) {

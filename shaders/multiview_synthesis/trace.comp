@@ -14,6 +14,7 @@ layout(constant_id = 2) const uint iterations = 3u;
 layout(constant_id = 3) const bool hasCones = true;
 layout(constant_id = 4) const bool hasTransparency = false;
 layout(constant_id = 5) const bool isCulled = true;
+layout(constant_id = 6) const bool mayLeave = true;
 
 layout(local_size_x = kMultiviewTile, local_size_y = kMultiviewTile) in;
 layout(set = 0, binding = 0) uniform sampler2DArray color;
@@ -109,7 +110,7 @@ uvec2 layersOf(uvec2 slices) {
 // True when the ray left the picture before it was stopped: what it would have met is not known.
 bool traceRay(Ray ray, uvec2 slices, out Gathered gathered) {
   gathered = Gathered(vec3(0.0), 1.0);
-  const vec2 inside = insideRange(ray);
+  const vec2 inside = mayLeave ? insideRange(ray) : vec2(0.0, 1e30);
   if (layers[0].nearVergence > inside.y) return true;
   uvec2 remaining = layersOf(slices);
   for (uint l = takeFirst(remaining); l != kNoLayer; l = takeFirst(remaining)) {
@@ -130,13 +131,15 @@ bool traceRay(Ray ray, uvec2 slices, out Gathered gathered) {
   return false;
 }
 
-// Four random numbers of a pixel (Jarzynski & Olano 2020, pcg4d), each in [-1, 1).
+// Four random numbers of a pixel in [-1, 1) (Jarzynski & Olano 2020, pcg4d). They cancel, and so do their 16 pairs: over
+// all rays of a pixel the lens stays where it is.
 vec4 noiseAt(uvec2 pixel) {
   uvec4 v = uvec4(pixel, 1u, 2u) * 1664525u + 1013904223u;
   v += v.yzxy * v.wxyz;
   v ^= v >> 16u;
   v += v.yzxy * v.wxyz;
-  return vec4(v >> 8u) * (2.0 / 16777216.0) - 1.0;
+  const vec2 numbers = vec2(v.xy >> 8u) * (2.0 / 16777216.0) - 1.0;
+  return vec4(numbers, -numbers);
 }
 
 // The lens point of ray i, seen from the view's.
