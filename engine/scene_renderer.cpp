@@ -10,6 +10,7 @@
 #include "engine/raster_pipeline.h"
 #include "engine/scene_constants.h"
 #include "spirv/scene/layer_radiance_frag.h"
+#include "spirv/scene/layer_surface_frag.h"
 #include "spirv/scene/layers_geom.h"
 #include "spirv/scene/opaque_radiance_frag.h"
 #include "spirv/scene/scene_vert.h"
@@ -59,6 +60,9 @@ EmitTraits traitsOf(SceneEmit emit) {
               .geometry = scene_layers_geom,
               .fragment = scene_layer_radiance_frag,
               .blended = true};
+    case SceneEmit::opaqueSurfaceLayers:
+      return {
+          .name = "scene.opaque_surface_layers", .geometry = scene_layers_geom, .fragment = scene_layer_surface_frag};
   }
   return {};
 }

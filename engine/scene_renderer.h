@@ -50,6 +50,10 @@ class SceneRenderer {
   /// Precondition: no submission that draws the scene is under way.
   void setViewpoint(const SceneViewpoint& viewpoint);
   bool hasTransparency() const { return gpu_.hasTransparency(); }
+  /// What lights the scene, to be bound by others; at rest in SHADER_READ_ONLY_OPTIMAL. Live as long as this object.
+  const GpuImage& environment() const { return environmentImage_; }
+  const GpuBuffer& lights() const { return lightConstants_; }
+  const GpuBuffer& constants() const { return sceneConstants_; }
 
   /// Records the draws. Precondition: rendering with the given formats has begun.
   void draw(const rendergraph::CommandStream& commands, const SceneDrawRequest& request);

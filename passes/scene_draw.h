@@ -9,7 +9,7 @@
 #include <functional>
 #include <span>
 
-#include "rendergraph/pass.h"
+#include "rendergraph/graph.h"
 #include "rendergraph/program.h"
 #include "shaders/shared/emit.h"
 #include "shaders/shared/view.h"
@@ -29,11 +29,21 @@ struct VergenceInterval {
   float farthest = 0.0f, nearest = 0.0f;
 };
 
+/// Lights and environment as resources of one graph, for techniques that shade where a lens ray hits (shaders/scene
+/// holds the formulas; the environment is a latitude-longitude map with -Z in the middle, mips by roughness).
+struct SceneShading {
+  rendergraph::Image environment;
+  rendergraph::Buffer lights;     ///< LightConstants (shaders/shared/scene.h)
+  rendergraph::Buffer constants;  ///< SceneConstants, uniform
+};
+
 /// The host's scene, as far as techniques are concerned. Lives until the frame has been recorded.
 struct SceneDraw {
   /// Records draws inside a raster pass (rendering has begun; viewport and scissor are the callback's to set).
   /// Lengths in view space are metres.
   std::function<void(rendergraph::PassContext&, const SceneDrawCall&)> record;
+  /// Imports what shading needs. Empty: nothing looks different from another side.
+  std::function<SceneShading(rendergraph::Graph&)> importShading;
   /// Whether anything is alpha-blended: techniques declare nothing for transparency without it.
   bool hasTransparency = false;
   /// Vergence range over all geometry inside the frustum and, where it can be seen, the background (0), 1/m.

@@ -35,11 +35,18 @@ double largestBlur(const shared::LensConstants& lens, std::span<const shared::Sc
   return std::max(blur(layers.front().nearest), blur(0.0f));
 }
 
-ViewPlan viewPlan(const DofInputs& inputs, const Parameters& parameters, LensView view, std::string prefix) {
+uint32_t mostLayers(const SceneDraw& scene, const Parameters& parameters) {
+  if (parameters.viewDependent) return kMostSplitLayers;
+  return shared::kMaxSceneLayers / (scene.hasTransparency ? 2 : 1);
+}
+
+ViewPlan viewPlan(const DofInputs& inputs, const Parameters& parameters, const std::optional<SceneShading>& shading,
+                  LensView view, std::string prefix) {
   ViewPlan plan;
   plan.prefix = std::move(prefix);
   plan.inputs = inputs;
   plan.parameters = parameters;
+  plan.shading = shading;
   const auto& scene = *inputs.scene;
   const VergenceInterval whole{scene.farthestVergence, scene.nearestVergence};
   auto occupied = scene.occupied;
@@ -49,7 +56,7 @@ ViewPlan viewPlan(const DofInputs& inputs, const Parameters& parameters, LensVie
   plan.layers = sceneLayers(occupied, {.pixelsPerVergence = inputs.lens.cocScale * reach,
                                        .travel = parameters.delta,
                                        .fixedCount = static_cast<uint32_t>(parameters.layers),
-                                       .mostLayers = shared::kMaxSceneLayers / (scene.hasTransparency ? 2 : 1)});
+                                       .mostLayers = mostLayers(scene, parameters)});
   plan.view = std::move(view);
 
   plan.coneDiameter = static_cast<float>(coneDiameterOf(parameters));
@@ -100,6 +107,10 @@ std::span<const Field<Parameters>> fields() {
       toggle<&Parameters::splitTriangles>("splitTriangles",
                                           "Put triangles into every layer they cross, clipped; off, the paper: whole "
                                           "into the layer of the farthest vertex, where they may hide others."),
+      toggle<&Parameters::viewDependent>("viewDependent",
+                                         "Shade what a ray hits as seen from its lens point, so that gloss moves over "
+                                         "surfaces as it does for a lens. Three times the memory for opaque layers, at "
+                                         "most 32 layers; needs splitTriangles. Nothing changes for unlit scenes."),
       toggle<&Parameters::culling>("culling", "Skip layers where no ray can hit anything. Changes no picture."),
       choice<&Parameters::pattern, kLensPatternNames>("pattern", "Low-discrepancy pattern of the lens points."),
   };
@@ -110,6 +121,13 @@ std::vector<Problem> validate(const Parameters& parameters, const DofInputs& inp
   auto problems = checkSceneInputs(inputs);
   if (parameters.views > parameters.lensSamples) {
     problems.push_back({"views", "there are more views than rays", "set views to lensSamples or less"});
+  }
+  if (parameters.viewDependent && !parameters.splitTriangles) {
+    problems.push_back(
+        {"viewDependent", "it needs triangles split at the layers' borders", "set splitTriangles to true"});
+  }
+  if (parameters.viewDependent && parameters.layers > static_cast<int>(kMostSplitLayers)) {
+    problems.push_back({"viewDependent", "it allows 32 layers at most", "set layers to 32 or less"});
   }
   return problems;
 }
@@ -130,9 +148,11 @@ DofOutputs declare(rendergraph::Graph& graph, const DofInputs& inputs, const Par
   const auto [width, height] = inputs.extent;
   out.color = graph.createImage(std::string(kPrefix) + ".color",
                                 {.format = kViewColorFormat, .width = width, .height = height});
+  std::optional<SceneShading> shading;
+  if (parameters.viewDependent && inputs.scene->importShading) shading = inputs.scene->importShading(graph);
   for (std::size_t i = 0; i < views.size(); ++i) {
     const std::string prefix = kPrefix + (views.size() > 1 ? ".view" + std::to_string(i) : std::string());
-    const ViewPlan plan = viewPlan(inputs, parameters, std::move(views[i]), prefix);
+    const ViewPlan plan = viewPlan(inputs, parameters, shading, std::move(views[i]), prefix);
     const Tables tables = declareUpload(graph, plan);
     LayerImages images = declareDecompose(graph, plan, tables, out.statistics);
     const auto visits = parameters.culling ? declareCulling(graph, plan, tables, images) : rendergraph::Buffer{};

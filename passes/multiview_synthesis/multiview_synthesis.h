@@ -31,8 +31,9 @@ struct Parameters {
   double border =
       1.0;  ///< 0…1 of the largest blur radius: how far the layers reach beyond the picture. 0 is the paper's.
   bool splitTriangles =
-      true;             ///< Triangles into every layer they cross; false: into their farthest vertex's (the paper).
-  bool culling = true;  ///< Leave out layers that no ray of a cell can hit; changes no picture.
+      true;  ///< Triangles into every layer they cross; false: into their farthest vertex's (the paper).
+  bool viewDependent = false;  ///< Shade hits as seen from their ray's lens point; needs splitTriangles.
+  bool culling = true;         ///< Leave out layers that no ray of a cell can hit; changes no picture.
   LensPattern pattern = LensPattern::sobol;
 };
 

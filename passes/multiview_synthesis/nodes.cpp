@@ -13,6 +13,7 @@
 #include "spirv/multiview_synthesis/mip_comp.h"
 #include "spirv/multiview_synthesis/redistribute_comp.h"
 #include "spirv/multiview_synthesis/trace_comp.h"
+#include "spirv/multiview_synthesis/trace_shaded_comp.h"
 #include "spirv/multiview_synthesis/visit_comp.h"
 
 namespace passes::multiview_synthesis {
@@ -32,6 +33,7 @@ const ComputeProgram kDilate{"multiview_synthesis.dilate", multiview_synthesis_d
 const ComputeProgram kVisit{"multiview_synthesis.visit", multiview_synthesis_visit_comp};
 const ComputeProgram kMip{"multiview_synthesis.mip", multiview_synthesis_mip_comp};
 const ComputeProgram kTrace{"multiview_synthesis.trace", multiview_synthesis_trace_comp};
+const ComputeProgram kTraceShaded{"multiview_synthesis.trace_shaded", multiview_synthesis_trace_shaded_comp};
 
 /// Half the bytes of full floats; the layers are the technique's memory. Radiance is limited to 65504.
 constexpr VkFormat kColorFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
@@ -62,13 +64,13 @@ shared::ViewConstants layerView(const ViewPlan& plan) {
                        y + shift(plan.border.y, plan.inputs.extent.height, plan.size.height)});
 }
 
-/// Draws the surfaces of an emit into a range of slices.
+/// Draws the surfaces of an emit into a range of slices of the colour attachments and of depth.
 void declareDraw(Graph& graph, const ViewPlan& plan, const Tables& tables, shared::SceneEmit emit, const char* name,
-                 uint32_t firstSlice, Image& color, Image& depth) {
+                 uint32_t firstSlice, std::span<Image* const> colors, Image& depth) {
   const rendergraph::Subresources slices{.mipCount = 1, .firstLayer = firstSlice, .layerCount = plan.layerCount()};
   auto pass = graph.addPass(plan.prefix + name, PassKind::raster);
-  pass.read(tables.layers, Usage::storage);
-  color = pass.color(color, {.range = slices});
+  pass.read(tables.layers, Usage::storage, VK_PIPELINE_STAGE_2_GEOMETRY_SHADER_BIT);
+  for (Image* color : colors) *color = pass.color(*color, {.range = slices});
   depth = pass.depth(depth, {.range = slices});
   pass.record([scene = plan.inputs.scene, extent = plan.size, view = layerView(plan), layers = tables.layers,
                emit](PassContext& context) {
@@ -79,7 +81,7 @@ void declareDraw(Graph& graph, const ViewPlan& plan, const Tables& tables, share
 
 void declareRedistribute(Graph& graph, const ViewPlan& plan, const Tables& tables, Image depth, LayerImages& images,
                          Buffer& statistics) {
-  const bool moves = !plan.parameters.splitTriangles || plan.layerCount() > 32;
+  const bool moves = !plan.parameters.splitTriangles || plan.layerCount() > kMostSplitLayers;
   auto pass = graph.addPass(plan.prefix + ".redistribute", PassKind::compute);
   pass.sample(depth);
   pass.read(tables.layers, Usage::storage);
@@ -161,22 +163,31 @@ Tables declareUpload(Graph& graph, const ViewPlan& plan) {
 }
 
 LayerImages declareDecompose(Graph& graph, const ViewPlan& plan, const Tables& tables, Buffer& statistics) {
-  const auto [width, height] = plan.size;
-  const uint32_t slices = plan.sliceCount();
-  const auto image = [&, width = width, height = height](const char* name, VkFormat format, uint32_t mips) {
-    return graph.createImage(plan.prefix + name,
-                             {.format = format, .width = width, .height = height, .layers = slices, .mips = mips});
+  const uint32_t opaque = plan.layerCount(), slices = plan.sliceCount();
+  const auto image = [&](const char* name, VkFormat format, uint32_t layers, uint32_t mips) {
+    return graph.createImage(
+        plan.prefix + name,
+        {.format = format, .width = plan.size.width, .height = plan.size.height, .layers = layers, .mips = mips});
   };
   LayerImages images;
-  images.color = image(".layer_color", kColorFormat, plan.mips);
-  images.height = image(".layer_height", kHeightFormat, 1);
-  const uint32_t levels = highestLevel(plan, rayReach(plan)) + 1;
-  images.occupied = graph.createBuffer(plan.prefix + ".occupied", {.size = maskBytes(plan, levels)});
-  Image depth = image(".layer_depth", kViewDepthFormat, 1);
-  declareDraw(graph, plan, tables, shared::SceneEmit::opaqueLayers, ".decompose", 0, images.color, depth);
-  if (slices > plan.layerCount()) {
-    declareDraw(graph, plan, tables, shared::SceneEmit::transparentLayers, ".decompose_transparent", plan.layerCount(),
-                images.color, depth);
+  images.color = image(".layer_color", kColorFormat, slices, plan.mips);
+  images.height = image(".layer_height", kHeightFormat, slices, 1);
+  images.occupied =
+      graph.createBuffer(plan.prefix + ".occupied", {.size = maskBytes(plan, highestLevel(plan, rayReach(plan)) + 1)});
+  Image depth = image(".layer_depth", kViewDepthFormat, slices, 1);
+  if (plan.shading) {
+    images.gloss = image(".layer_gloss", kColorFormat, opaque, plan.mips);
+    images.facing = image(".layer_facing", kColorFormat, opaque, plan.mips);
+    const std::array colors = {&images.color, &images.gloss, &images.facing};
+    declareDraw(graph, plan, tables, shared::SceneEmit::opaqueSurfaceLayers, ".decompose", 0, colors, depth);
+  } else {
+    const std::array colors = {&images.color};
+    declareDraw(graph, plan, tables, shared::SceneEmit::opaqueLayers, ".decompose", 0, colors, depth);
+  }
+  if (slices > opaque) {
+    const std::array colors = {&images.color};
+    declareDraw(graph, plan, tables, shared::SceneEmit::transparentLayers, ".decompose_transparent", opaque, colors,
+                depth);
   }
   declareRedistribute(graph, plan, tables, depth, images, statistics);
   return images;
@@ -217,13 +228,16 @@ Buffer declareCulling(Graph& graph, const ViewPlan& plan, const Tables& tables, 
   return visits;
 }
 
-void declareMips(Graph& graph, const ViewPlan& plan, const Tables& tables, LayerImages& images) {
+namespace {
+
+void declareMipsOf(Graph& graph, const ViewPlan& plan, const Tables& tables, const char* name, uint32_t slices,
+                   Image& image) {
   for (uint32_t level = 1; level < plan.mips; ++level) {
     const VkExtent2D extent = {plan.size.width >> level, plan.size.height >> level};
-    auto pass = graph.addPass(plan.prefix + ".mip" + std::to_string(level), PassKind::compute);
-    pass.read(images.color, Usage::storage, rendergraph::mip(level - 1));
+    auto pass = graph.addPass(plan.prefix + name + std::to_string(level), PassKind::compute);
+    pass.read(image, Usage::storage, rendergraph::mip(level - 1));
     pass.read(tables.layers, Usage::storage);
-    images.color = pass.write(images.color, Usage::storage, rendergraph::mip(level));
+    image = pass.write(image, Usage::storage, rendergraph::mip(level));
     const shared::MipPush push{.size = signedExtent(extent),
                                .level = level,
                                .layerCount = plan.layerCount(),
@@ -231,15 +245,24 @@ void declareMips(Graph& graph, const ViewPlan& plan, const Tables& tables, Layer
                                .focusVergence = plan.inputs.lens.focusVergence,
                                .coneDiameter = plan.coneDiameter};
     auto groups = rendergraph::groupsFor(extent, shared::kMultiviewTile);
-    groups.z = plan.sliceCount();
-    pass.record([color = images.color, table = tables.layers, level, push, groups](PassContext& context) {
-      const std::array bindings = {rendergraph::storage(color, rendergraph::mip(level - 1), kArray),
-                                   rendergraph::storage(color, rendergraph::mip(level), kArray),
+    groups.z = slices;
+    pass.record([image, table = tables.layers, level, push, groups](PassContext& context) {
+      const std::array bindings = {rendergraph::storage(image, rendergraph::mip(level - 1), kArray),
+                                   rendergraph::storage(image, rendergraph::mip(level), kArray),
                                    rendergraph::storage(table)};
       context.dispatch(
           {.program = kMip, .bindings = bindings, .pushConstants = rendergraph::bytesOf(push), .groups = groups});
     });
   }
+}
+
+}  // namespace
+
+void declareMips(Graph& graph, const ViewPlan& plan, const Tables& tables, LayerImages& images) {
+  declareMipsOf(graph, plan, tables, ".mip", plan.sliceCount(), images.color);
+  if (!plan.shading) return;
+  declareMipsOf(graph, plan, tables, ".gloss_mip", plan.layerCount(), images.gloss);
+  declareMipsOf(graph, plan, tables, ".facing_mip", plan.layerCount(), images.facing);
 }
 
 namespace {
@@ -275,6 +298,13 @@ Image declareTrace(Graph& graph, const ViewPlan& plan, const Tables& tables, con
     pass.read(tables.layers, Usage::storage);
     pass.read(tables.rays, Usage::storage);
     if (visits) pass.read(visits, Usage::storage);
+    if (plan.shading) {
+      pass.sample(images.gloss);
+      pass.sample(images.facing);
+      pass.sample(plan.shading->environment);
+      pass.read(plan.shading->lights, Usage::storage);
+      pass.read(plan.shading->constants, Usage::uniform);
+    }
     picture = starts ? pass.write(picture, Usage::storage) : pass.modify(picture, Usage::storage);
     const shared::TracePush push{.aperture = aperture,
                                  .size = signedExtent(plan.size),
@@ -291,7 +321,8 @@ Image declareTrace(Graph& graph, const ViewPlan& plan, const Tables& tables, con
                                  .focusVergence = lens.focusVergence,
                                  .vergenceScale = lens.vergenceScale,
                                  .coneDiameter = plan.coneDiameter,
-                                 .noiseReach = noiseReach(static_cast<uint32_t>(plan.parameters.lensSamples))};
+                                 .noiseReach = noiseReach(static_cast<uint32_t>(plan.parameters.lensSamples)),
+                                 .pixelsPerTangent = plan.inputs.projection.pixelsPerTangent};
     const std::array<uint32_t, 7> specialization = {static_cast<uint32_t>(plan.parameters.jitter),
                                                     static_cast<uint32_t>(plan.parameters.search),
                                                     static_cast<uint32_t>(plan.parameters.iterations),
@@ -299,15 +330,24 @@ Image declareTrace(Graph& graph, const ViewPlan& plan, const Tables& tables, con
                                                     plan.sliceCount() > plan.layerCount() ? 1u : 0u,
                                                     visits ? 1u : 0u,
                                                     plan.raysMayLeave ? 1u : 0u};
-    pass.record([=, extent = plan.inputs.extent](PassContext& context) {
+    pass.record([=, extent = plan.inputs.extent, shading = plan.shading](PassContext& context) {
       const rendergraph::SamplerDesc trilinear{.mipmap = VK_SAMPLER_MIPMAP_MODE_LINEAR};
-      const std::array bindings = {rendergraph::sampled(images.color, trilinear, {}, kArray),
-                                   rendergraph::storage(images.height, rendergraph::mip(0), kArray),
-                                   rendergraph::storage(tables.layers),
-                                   rendergraph::storage(tables.rays),
-                                   rendergraph::storage(visits ? visits : tables.rays),
-                                   rendergraph::storage(picture)};
-      context.dispatch({.program = kTrace,
+      std::vector<Binding> bindings = {rendergraph::sampled(images.color, trilinear, {}, kArray),
+                                       rendergraph::storage(images.height, rendergraph::mip(0), kArray),
+                                       rendergraph::storage(tables.layers),
+                                       rendergraph::storage(tables.rays),
+                                       rendergraph::storage(visits ? visits : tables.rays),
+                                       rendergraph::storage(picture)};
+      if (shading) {
+        const rendergraph::SamplerDesc around{.mipmap = VK_SAMPLER_MIPMAP_MODE_LINEAR,
+                                              .address = VK_SAMPLER_ADDRESS_MODE_REPEAT};
+        bindings.push_back(rendergraph::sampled(images.gloss, trilinear, {}, kArray));
+        bindings.push_back(rendergraph::sampled(images.facing, trilinear, {}, kArray));
+        bindings.push_back(rendergraph::sampled(shading->environment, around));
+        bindings.push_back(rendergraph::storage(shading->lights));
+        bindings.push_back(rendergraph::uniform(shading->constants));
+      }
+      context.dispatch({.program = shading ? kTraceShaded : kTrace,
                         .bindings = bindings,
                         .pushConstants = rendergraph::bytesOf(push),
                         .specialization = specialization,

@@ -1,7 +1,7 @@
 // The nodes of the multiview synthesis, each a function from handles to handles.
 #pragma once
 
-#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +13,9 @@
 
 namespace passes::multiview_synthesis {
 
+/// Triangles are split over at most this many layers (shaders/scene/layers.geom); with more, what is left moves after.
+inline constexpr uint32_t kMostSplitLayers = 32;
+
 /// What all nodes of one view need.
 struct ViewPlan {
   std::string prefix;  ///< Of pass and resource names.
@@ -23,8 +26,9 @@ struct ViewPlan {
   VkExtent2D size;            ///< px, of the layers; a multiple of the cells and of the coarsest mip level's texels.
   shared::ivec2 border;       ///< px of the layers to the left of and above the picture.
   bool raysMayLeave = false;  ///< Some rays reach beyond the layers.
-  uint32_t mips = 1;          ///< Of the layers' colour.
-  float coneDiameter = 0.0f;  ///< λ, px per px of |c|; 0: lines.
+  std::optional<SceneShading> shading;  ///< Set: hits are shaded as seen from their ray's lens point.
+  uint32_t mips = 1;                    ///< Of the layers' colour.
+  float coneDiameter = 0.0f;            ///< λ, px per px of |c|; 0: lines.
 
   uint32_t layerCount() const { return static_cast<uint32_t>(layers.size()); }
   /// Slices of the layer images: opaque layers, then, where anything is transparent, as many transparent ones.
@@ -39,7 +43,9 @@ struct Tables {
 
 /// The scene in layers.
 struct LayerImages {
-  rendergraph::Image color;      ///< RGBA16F array with mips: premultiplied radiance and coverage.
+  rendergraph::Image color;  ///< RGBA16F array with mips: premultiplied radiance and coverage.
+  rendergraph::Image gloss,
+      facing;                    ///< For shading: RGBA16F arrays of the opaque layers, with mips (emit.h says what).
   rendergraph::Image height;     ///< R32F array: the depth buffer's value; 0 where a layer is empty.
   rendergraph::Buffer occupied;  ///< N-buffer: per level and cell a bit for each slice that holds anything.
 };

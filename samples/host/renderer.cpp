@@ -121,6 +121,7 @@ struct Renderer::State {
   using DeclareFrame = std::function<FrameOutputs(Graph&, uint32_t frame)>;
 
   DofInputs sceneInputs(const Shot& shot);
+  passes::SceneShading importShading(Graph& graph) const;
   Rendering run(const passes::Technique& technique, const DofInputs& inputs, const RenderOptions& options,
                 const DeclareFrame& declareFrame);
   ReadBacks declareReadBacks(Graph& graph, const FrameOutputs& frame, bool isLast, bool wantDepth);
@@ -147,6 +148,23 @@ Renderer::Renderer(engine::Device& device, engine::Scene scene, const std::optio
 
 Renderer::Renderer(engine::Device& device) : state_(std::make_unique<State>(device)) {}
 Renderer::~Renderer() = default;
+
+passes::SceneShading Renderer::State::importShading(Graph& graph) const {
+  const auto buffer = [&](const char* name, const engine::GpuBuffer& one, VkBufferUsageFlags usage) {
+    return graph.importBuffer(name, {.size = std::max<VkDeviceSize>(one.size, 16)},
+                              {.buffer = one.buffer.get(), .usage = usage, .before = {}, .after = {}});
+  };
+  const auto& environment = renderer->environment();
+  constexpr rendergraph::AccessState kRest{VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_SHADER_READ_BIT,
+                                           VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+  return {.environment = graph.importImage("environment", environment.desc,
+                                           {.image = environment.image.get(),
+                                            .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+                                            .before = kRest,
+                                            .after = kRest}),
+          .lights = buffer("lights", renderer->lights(), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT),
+          .constants = buffer("scene_constants", renderer->constants(), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT)};
+}
 
 DofInputs Renderer::State::sceneInputs(const Shot& shot) {
   if (!renderer) throw engine::Error("this renderer was made without a scene");
@@ -175,6 +193,8 @@ DofInputs Renderer::State::sceneInputs(const Shot& shot) {
   sceneDraw.occupied = occupied;
   sceneDraw.farthestVergence = 0.0f;  // The background may always show.
   sceneDraw.hasTransparency = renderer->hasTransparency();
+  sceneDraw.importShading = {};
+  if (shot.shading == Shading::lit) sceneDraw.importShading = [this](Graph& graph) { return importShading(graph); };
   sceneDraw.record = [this](PassContext& context, const passes::SceneDrawCall& call) {
     std::vector<rendergraph::ResolvedBinding> bindings;
     for (const auto& binding : call.emitBindings) {

@@ -40,14 +40,36 @@ float surfaceAlpha(float alpha) {
   return alpha;
 }
 
-// Linear radiance (not premultiplied) and alpha towards the view's lens point.
+// A fragment with its light in two parts, and what its gloss depends on. Without gloss the normal is 0.
+struct Surface {
+  vec3 steady, glossy;  // linear radiance, not premultiplied
+  float alpha;
+  Shaded shaded;
+};
+
 // Members are read where they are used: a copy of the whole material would load all of it for every fragment.
-vec4 surface() {
+Surface surfaceParts() {
   const vec4 base = vertexColor * materials[materialIndex].baseColor *
                     textureLod(baseColorMap, transformedUv(materials[materialIndex].baseColorUv), 0.0);
-  const float alpha = surfaceAlpha(base.a);
-  if (materials[materialIndex].unlit != 0u) return vec4(base.rgb, alpha);
-  const vec3 emissive = materials[materialIndex].emissive.rgb *
-                        textureLod(emissiveMap, transformedUv(materials[materialIndex].emissiveUv), 0.0).rgb;
-  return vec4((lit ? shade(base.rgb) : base.rgb) + emissive, alpha);
+  Surface parts;
+  parts.steady = base.rgb;
+  parts.glossy = vec3(0.0);
+  parts.alpha = surfaceAlpha(base.a);
+  parts.shaded = Shaded(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0.0);
+  if (materials[materialIndex].unlit != 0u) return parts;
+  if (lit) {
+    parts.shaded = shadedFragment(base.rgb);
+    const Reflected light = reflectedBy(parts.shaded);
+    parts.steady = light.steady;
+    parts.glossy = light.glossy;
+  }
+  parts.steady += materials[materialIndex].emissive.rgb *
+                  textureLod(emissiveMap, transformedUv(materials[materialIndex].emissiveUv), 0.0).rgb;
+  return parts;
+}
+
+// Linear radiance (not premultiplied) and alpha towards the view's lens point.
+vec4 surface() {
+  const Surface parts = surfaceParts();
+  return vec4(parts.steady + parts.glossy, parts.alpha);
 }

@@ -27,6 +27,9 @@ enum class SceneEmit : uint32_t {
   /// The same for alpha-blended surfaces, of which each layer keeps the nearest: premultiplied radiance, alpha; fragments
   /// with alpha 0 are discarded.
   transparentLayers = 3,
+  /// opaqueLayers for shading anew where a lens ray hits. Colour attachment 0: radiance without gloss, alpha 1;
+  /// 1: specular colour at normal incidence, perceptual roughness; 2: normal in view space (0: no gloss), occlusion.
+  opaqueSurfaceLayers = 4,
 };
 #endif
 

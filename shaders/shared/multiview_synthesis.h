@@ -76,6 +76,7 @@ struct TracePush {
   float vergenceScale;  // V = scale · z
   float coneDiameter;   // λ, per px of |c|
   float noiseReach;     // lens radii that kJitterNoise moves lens points by, at most
+  float pixelsPerTangent;  // S, px
 };
 
 SHARED_NAMESPACE_END
