@@ -41,21 +41,12 @@ class Placing {
  private:
   uint32_t queueOf(const FoundBarrier& found) const { return found.step < steps_ ? schedule_.queue[found.step] : 0; }
 
-  bool splits(const FoundBarrier& found) const {
-    if (found.setAfter == FoundBarrier::kNowhere || found.submission != FoundBarrier::kNowhere) return false;
-    if (found.step >= steps_ || found.step - found.setAfter - 1 < options_.splitDistance) return false;
-    constexpr VkPipelineStageFlags2 kHost = VK_PIPELINE_STAGE_2_HOST_BIT;  // Events do not know the host.
-    if (((found.barrier.from.stages | found.barrier.to.stages) & kHost) != 0) return false;
-    const QueueFacts& queue = queues_[queueOf(found)];
-    return queue.graphics || queue.compute;  // Others have no events.
-  }
-
   /// Barriers between the same two steps share an event.
   void findEvents() {
     eventOf_.assign(found_.size(), kNone);
     std::vector<uint32_t> split;
     for (uint32_t i = 0; i < found_.size(); ++i) {
-      if (splits(found_[i])) split.push_back(i);
+      if (isSplit(found_[i], options_, schedule_, queues_)) split.push_back(i);
     }
     std::stable_sort(split.begin(), split.end(), [&](uint32_t a, uint32_t b) {
       return std::pair(found_[a].step, found_[a].setAfter) < std::pair(found_[b].step, found_[b].setAfter);
@@ -162,6 +153,17 @@ class Placing {
 };
 
 }  // namespace
+
+bool isSplit(const FoundBarrier& found, const CompileOptions& options, const Schedule& schedule,
+             std::span<const QueueFacts> queues) {
+  if (options.splitDistance == 0) return false;
+  if (found.setAfter == FoundBarrier::kNowhere || found.submission != FoundBarrier::kNowhere) return false;
+  if (found.step >= schedule.steps() || found.step - found.setAfter - 1 < options.splitDistance) return false;
+  constexpr VkPipelineStageFlags2 kHost = VK_PIPELINE_STAGE_2_HOST_BIT;  // Events do not know the host.
+  if (((found.barrier.from.stages | found.barrier.to.stages) & kHost) != 0) return false;
+  const QueueFacts& queue = queues[schedule.queue[found.step]];
+  return queue.graphics || queue.compute;  // Others have no events.
+}
 
 void placeBarriers(const Declaration& declaration, const CompileOptions& options, const Schedule& schedule,
                    std::span<const QueueFacts> queues, std::vector<FoundBarrier>& found, Plan& plan) {

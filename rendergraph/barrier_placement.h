@@ -25,6 +25,10 @@ struct FoundBarrier {
   ImageBarrier barrier;            ///< Of a buffer too, then without range and layouts.
 };
 
+/// Whether the two sides of a barrier become an event's set and wait.
+bool isSplit(const FoundBarrier& found, const CompileOptions& options, const Schedule& schedule,
+             std::span<const QueueFacts> queues);
+
 /// Fills the barriers, batches and events of the plan. Precondition: its passes and submissions are complete.
 void placeBarriers(const Declaration& declaration, const CompileOptions& options, const Schedule& schedule,
                    std::span<const QueueFacts> queues, std::vector<FoundBarrier>& found, Plan& plan);

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "rendergraph/barrier_placement.h"
 #include "rendergraph/barrier_scopes.h"
+#include "rendergraph/barrier_trimming.h"
 #include "rendergraph/barriers.h"
 #include "rendergraph/cells.h"
 #include "rendergraph/declaration.h"
@@ -39,7 +41,8 @@ class BarrierPlanner {
   void findOccupants();
   void noteFinalScopes(uint32_t resource, uint32_t cell);
   void noteUnused(uint32_t resource);
-  bool noteExported(const DeclaredResource& declared, std::span<const CellUse> uses, AccessPoint& scope) const;
+  bool noteExported(const DeclaredResource& declared, std::span<const CellUse> uses, bool owned,
+                    AccessPoint& scope) const;
   CellState stateAfterOccupants(uint32_t resource, uint32_t queue) const;
   CellState stateBefore(uint32_t resource, uint32_t queue) const;
 
@@ -60,7 +63,7 @@ class BarrierPlanner {
   void changeLayoutAtEnd(Crossing& crossing, const Epoch& epoch);
   void changeLayoutBefore(Crossing& crossing, const Epoch& epoch);
   void waitOnOwnQueue(Crossing& crossing, const Epoch& epoch, uint32_t queue);
-  void showToHost(Crossing& crossing, const Epoch& epoch, uint32_t queue);
+  void chainFromWait(Crossing& crossing, const Epoch& epoch, uint32_t queue);
   void addCrossing(const Crossing& crossing, const Epoch& epoch, uint32_t queue, ImageBarrier barrier);
   uint32_t submissionAfter(const Crossing& crossing) const;
 
@@ -74,6 +77,7 @@ class BarrierPlanner {
   std::vector<CellUse> uses_;        // Of the current cell.
   std::vector<FoundBarrier> found_;  // Of the current resource.
   std::vector<FoundBarrier> all_;
+  std::optional<BarrierTrimming> trimming_;
 };
 
 }  // namespace rendergraph

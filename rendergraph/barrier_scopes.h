@@ -13,14 +13,26 @@ namespace rendergraph {
 VkPipelineStageFlags2 expandedStages(VkPipelineStageFlags2 stages);
 VkAccessFlags2 expandedAccess(VkAccessFlags2 access);
 
+/// The same, but that the host's stage is in nothing but itself.
+inline VkPipelineStageFlags2 elementaryStages(VkPipelineStageFlags2 stages) {
+  constexpr VkPipelineStageFlags2 kHost = VK_PIPELINE_STAGE_2_HOST_BIT;
+  return (expandedStages(stages) & ~kHost) | (stages & kHost);
+}
+
+/// Calls use(flag) for each bit.
+template <class Use>
+void forEachBit(VkFlags64 flags, Use&& use) {
+  for (; flags != 0; flags &= flags - 1) use(flags & ~(flags - 1));
+}
+
 /// Where a chain of dependencies passes through that has no stage of its own; queue 0 and every computing one have it.
 inline constexpr VkPipelineStageFlags2 kChainStage = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
 
 /// The stages at which a use waits for a semaphore. One by the host, or at no stage, has none of its own that could
-/// wait: what protects it chains from another.
+/// wait, and one at all of them shall not make the whole queue wait: what protects these chains from another.
 inline VkPipelineStageFlags2 semaphoreStages(VkPipelineStageFlags2 stages) {
   const VkPipelineStageFlags2 onDevice = stages & ~VK_PIPELINE_STAGE_2_HOST_BIT;
-  return onDevice != 0 ? onDevice : kChainStage;
+  return onDevice != 0 && (onDevice & VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT) == 0 ? onDevice : kChainStage;
 }
 
 /// To whom the content of a cell is visible.

@@ -15,6 +15,8 @@
 // The layout in which a frame leaves what is kept across frames is made visible to everything by the barrier at its
 // end; with overlapping frames, a change of that layout chains to it through ALL_COMMANDS.
 //
+// Where a plan has several submissions, barriers lose in the end what other waits see to (barrier_trimming.h).
+//
 // Every barrier names its resource, and none is left out because a barrier of another resource happens to order the
 // same stages: layered validation reasons per resource, and within a batch the extra entry waits for nothing new.
 #include "rendergraph/barriers.h"
@@ -34,7 +36,8 @@ AccessPoint scopeAfter(const Epoch& epoch) {
           .access = epoch.writes() ? epoch.access & kWriteAccess : 0};
 }
 
-/// What the host writes before a submission is visible to all of it without a barrier (Vulkan 1.3, 7.9).
+/// What the host writes before a submission is visible to all of it without a barrier (Vulkan 1.3, 7.9), and to the
+/// host itself.
 void forgetHostWrite(CellState& state) {
   if (!state.wrote || state.last.stages != VK_PIPELINE_STAGE_2_HOST_BIT) return;
   state.last.stages = state.last.access = 0;
@@ -54,7 +57,16 @@ BarrierReason reasonFor(const CellState& state, const Epoch& epoch) {
 void BarrierPlanner::run() {
   findOccupants();
   all_.reserve(in_.declaration.accesses.size());
-  for (uint32_t resource = 0; resource < in_.declaration.resources.size(); ++resource) planResource(resource);
+  // On one queue, each barrier is needed as it is found.
+  if (plan_.submissions.size() > 1) trimming_.emplace(in_, plan_);
+  do {
+    all_.clear();
+    for (uint32_t resource = 0; resource < in_.declaration.resources.size(); ++resource) planResource(resource);
+  } while (trimming_ && trimming_->again());
+  if (trimming_) {
+    trimming_->trimEnds(all_);
+    trimming_->trimWaits(plan_);
+  }
   placeBarriers(in_.declaration, in_.options, in_.schedule, in_.queues, all_, plan_);
 }
 
@@ -86,7 +98,8 @@ void BarrierPlanner::noteFinalScopes(uint32_t resource, uint32_t cell) {
     const bool changed = uses.back().queue != 0 || (declared.isImage && declared.after.layout != uses.back().layout);
     const bool seen = (declared.after.access & ~kWriteAccess) != 0;  // By a read, which later writes only come after.
     if (changed && !seen) changedAtEnd_[resource] = 1;
-    if (noteExported(declared, uses, scopes[0])) return;
+    const bool owned = !in_.sharing.empty() && hasOwner(in_.sharing[resource]);
+    if (noteExported(declared, uses, owned, scopes[0])) return;
   }
   const bool forHost = declared.exported && (declared.after.stages & VK_PIPELINE_STAGE_2_HOST_BIT) != 0;
   std::size_t first = uses.size() - 1;
@@ -112,11 +125,12 @@ void BarrierPlanner::noteUnused(uint32_t resource) {
 
 /// What the host submitted may still be at an exported resource when the next frame begins; the host itself is done
 /// by then. Returns whether waiting for that is waiting for the graph's own uses as well.
-bool BarrierPlanner::noteExported(const DeclaredResource& declared, std::span<const CellUse> uses,
+bool BarrierPlanner::noteExported(const DeclaredResource& declared, std::span<const CellUse> uses, bool owned,
                                   AccessPoint& scope) const {
   const bool newLayout = declared.isImage && declared.after.layout != uses.back().layout;
   const VkPipelineStageFlags2 after = declared.after.stages & ~VK_PIPELINE_STAGE_2_HOST_BIT;
-  const bool all = after == 0 && (newLayout || uses.back().queue != 0);
+  // Reads on another queue go on meanwhile, unless queue 0 has to take over.
+  const bool all = after == 0 && (newLayout || (uses.back().queue != 0 && (uses.back().writes || owned)));
   scope.pass = AccessPoint::kOutside;
   scope.stages |= all ? kChainStage : after;
   if (after != 0) scope.access |= declared.after.access & kWriteAccess;
@@ -188,6 +202,7 @@ void BarrierPlanner::planResource(uint32_t resource) {
     if (const auto after =
             useAfterGraph(declared, uses, start.layout, in_.schedule.steps(), in_.options.overlappingFrames))
       uses_.push_back(*after);
+    if (trimming_) trimming_->begin(resource, cell, occupants_.before(resource));
     if (in_.schedule.severalQueues && crosses(declared)) {
       planCrossingCell(resource, cell, start);
     } else {
@@ -204,13 +219,16 @@ void BarrierPlanner::planCell(uint32_t resource, uint32_t cell, const CellState&
   for (std::size_t first = 0; first < uses_.size();) {
     const Epoch epoch = epochAt(uses_, first);
     const bool transition = isImage && state.layout != epoch.layout();
+    const std::size_t before = found_.size();
     first += epoch.uses.size();
-    if ((epoch.stages & VK_PIPELINE_STAGE_2_HOST_BIT) == 0) forgetHostWrite(state);
+    forgetHostWrite(state);
     if (!transition && !state.wrote && !epoch.writes()) {
       joinReads(resource, cell, state, epoch);
+      if (trimming_) trimming_->trim(epoch, found_, before);
       continue;
     }
     if (transition || state.last.stages != 0) separate(resource, cell, state, epoch, transition);
+    if (trimming_) trimming_->trim(epoch, found_, before);
     const bool untouched = !transition && !state.wrote && state.last.stages == 0;
     state.layout = epoch.layout();
     state.last = scopeAfter(epoch);
@@ -249,9 +267,11 @@ void BarrierPlanner::joinReads(uint32_t resource, uint32_t cell, CellState& stat
     add(resource, cell, missing, state,
         {.from = state.last, .oldLayout = state.layout, .reason = BarrierReason::readAfterWrite}, missing.access);
     state.visible.add(missing.stages, missing.access);
-    // The barrier waits for the host, and for the reads before it, which are at the host's stages.
-    state.last.stages = 0;
-    unordered = missing.uses;
+    // The barrier waits for the host, and for the reads before it, which are at the host's stages; if it stays.
+    if (!trimming_) {
+      state.last.stages = 0;
+      unordered = missing.uses;
+    }
   }
   state.last.pass = epoch.uses.back().lastPass;
   state.lastStep = epoch.uses.back().step;
@@ -263,7 +283,9 @@ void BarrierPlanner::separate(uint32_t resource, uint32_t cell, const CellState&
                               bool transition) {
   VkAccessFlags2 access = epoch.access;
   if (!transition && !state.wrote) {  // Write after read.
-    access = epoch.needsContent() ? state.visible.uncovered(epoch.stages, epoch.access & ~kWriteAccess) : 0;
+    access = epoch.needsContent() ? epoch.access & ~kWriteAccess : 0;
+    // What earlier barriers have shown is known only while nothing is taken from them.
+    if (!trimming_) access = state.visible.uncovered(epoch.stages, access);
   }
   // Before it writes, the host waits for the device in any case.
   const bool replaces = epoch.writes() && !epoch.needsContent();

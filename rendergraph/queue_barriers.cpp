@@ -4,7 +4,8 @@
 //                     the cell next; else by the queue that uses it next, chained to the stages that waited;
 //   a new owner       released at the end of the last submission of the old owner's queue that uses it, and acquired
 //                     before the first use by the new one; both name the layouts.
-// On the queue that goes on using the cell itself, the rules of barriers.cpp hold.
+// On the queue that goes on using the cell itself, the rules of barriers.cpp hold. Every barrier is proposed in full;
+// what semaphores have seen to is taken from it afterwards (barrier_trimming.h).
 #include <algorithm>
 
 #include "rendergraph/barrier_planner.h"
@@ -35,7 +36,6 @@ struct BarrierPlanner::Crossing {
   struct OnQueue {
     bool used = false;  // By the last epoch.
     AccessPoint last;   // Its part of it.
-    Visibility visible = Visibility::to(0, 0);
   };
   uint32_t resource, cell;
   Sharing sharing;
@@ -70,10 +70,12 @@ void BarrierPlanner::planCrossingCell(uint32_t resource, uint32_t cell, const Ce
                     .lastStep = kNone,
                     .lastQueue = home,
                     .queues = std::vector<Crossing::OnQueue>(in_.schedule.queues)};
-  crossing.queues[home] = {.used = true, .last = start.last, .visible = start.visible};
+  crossing.queues[home] = {.used = true, .last = start.last};
   for (std::size_t first = 0; first < uses_.size();) {
     const Epoch epoch = epochAt(uses_, first, hasOwner(crossing.sharing));
+    const std::size_t before = found_.size();
     cross(crossing, epoch);
+    trimming_->trim(epoch, found_, before);
     first += epoch.uses.size();
   }
 }
@@ -94,11 +96,6 @@ void BarrierPlanner::cross(Crossing& crossing, const Epoch& epoch) {
     after[queue].last = {.pass = epoch.uses.back().lastPass,
                          .stages = part.stages,
                          .access = epoch.writes() ? part.access & kWriteAccess : 0};
-    if (epoch.writes()) continue;
-    // A semaphore makes content visible to every kind of access; a barrier after it, to what it names.
-    const bool byBarrier = newOwner || (transition && !atEnd && queue == epoch.uses.front().queue);
-    const bool bySemaphore = !crossing.queues[queue].used && !byBarrier;
-    after[queue].visible = Visibility::to(part.stages, bySemaphore ? ~VkAccessFlags2{0} : part.access);
   }
   if (newOwner) {
     transferOwnership(crossing, epoch);
@@ -112,7 +109,7 @@ void BarrierPlanner::cross(Crossing& crossing, const Epoch& epoch) {
       if (crossing.queues[queue].used) {
         waitOnOwnQueue(crossing, epoch, queue);
       } else {
-        showToHost(crossing, epoch, queue);
+        chainFromWait(crossing, epoch, queue);
       }
     }
   }
@@ -202,10 +199,13 @@ void BarrierPlanner::waitOnOwnQueue(Crossing& crossing, const Epoch& epoch, uint
   const Crossing::OnQueue& own = crossing.queues[queue];
   const Epoch part = partOf(epoch, queue);
   if (own.last.stages == 0) return;
-  // What the host wrote is visible to all that is submitted later.
-  constexpr VkPipelineStageFlags2 kHost = VK_PIPELINE_STAGE_2_HOST_BIT;
-  if (crossing.wrote && own.last.stages == kHost && (part.stages & kHost) == 0) return;
-  ImageBarrier barrier{.from = own.last,
+  // What the host wrote is visible to itself, and to all that is submitted later.
+  if (crossing.wrote && own.last.stages == VK_PIPELINE_STAGE_2_HOST_BIT) return;
+  AccessPoint from = own.last;
+  // What all stages wait for, none has waited for elsewhere.
+  const bool chains = (part.stages & VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT) != 0 && !crossing.onOneQueue();
+  if (chains) from.stages |= waitingStage(epoch, queue);
+  ImageBarrier barrier{.from = from,
                        .to = {.stages = part.stages, .access = part.access},
                        .oldLayout = crossing.layout,
                        .newLayout = epoch.layout()};
@@ -213,23 +213,23 @@ void BarrierPlanner::waitOnOwnQueue(Crossing& crossing, const Epoch& epoch, uint
     barrier.reason = epoch.needsContent() ? BarrierReason::readAfterWrite : BarrierReason::writeAfterWrite;
   } else if (epoch.writes()) {
     barrier.reason = BarrierReason::writeAfterRead;
-    barrier.to.access =
-        epoch.needsContent() ? own.visible.uncovered(part.stages, part.access & ~kWriteAccess) : VkAccessFlags2{0};
+    barrier.to.access = epoch.needsContent() ? part.access & ~kWriteAccess : VkAccessFlags2{0};
   } else {
-    if (own.visible.covers(part.stages, part.access)) return;
     barrier.reason = BarrierReason::readAfterWrite;
   }
   if (crossing.alias) barrier.reason = BarrierReason::alias;
   addCrossing(crossing, epoch, queue, barrier);
 }
 
-/// No semaphore reaches the host's own stage.
-void BarrierPlanner::showToHost(Crossing& crossing, const Epoch& epoch, uint32_t queue) {
+/// No semaphore reaches the host's own stage, and none need reach all stages.
+void BarrierPlanner::chainFromWait(Crossing& crossing, const Epoch& epoch, uint32_t queue) {
   const Epoch part = partOf(epoch, queue);
-  if ((part.stages & VK_PIPELINE_STAGE_2_HOST_BIT) == 0 || !(epoch.needsContent() || crossing.wrote)) return;
+  const VkPipelineStageFlags2 stages =
+      part.stages & (VK_PIPELINE_STAGE_2_HOST_BIT | VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT);
+  if (stages == 0 || !(epoch.needsContent() || crossing.wrote)) return;
   addCrossing(crossing, epoch, queue,
               {.from = {.pass = crossing.queues[crossing.lastQueue].last.pass, .stages = waitingStage(epoch, queue)},
-               .to = {.stages = VK_PIPELINE_STAGE_2_HOST_BIT, .access = part.access},
+               .to = {.stages = stages, .access = part.access},
                .oldLayout = crossing.layout,
                .newLayout = epoch.layout(),
                .reason = BarrierReason::readAfterWrite});

@@ -46,6 +46,22 @@ bool canRunOn(const DeclaredPass& pass, const QueueFacts& queue) {
   return false;
 }
 
+/// Whether, without any transfer of ownership, a family would use what another one owns. A family takes over what
+/// nobody owns, and what it replaces: a buffer, or an image whose layout changes on the way.
+bool contentChangesFamily(const DeclaredResource& resource, std::span<const CellUse> uses,
+                          std::span<const QueueFacts> queues) {
+  const uint32_t outside = resource.observable() ? queues[0].family : kNone;
+  uint32_t owner = outside;
+  for (std::size_t i = 0; i < uses.size(); ++i) {
+    if ((uses[i].stages & VK_PIPELINE_STAGE_2_HOST_BIT) != 0) continue;  // The host owns nothing, and asks nobody.
+    const bool sameLayout = resource.isImage && i > 0 && uses[i - 1].layout == uses[i].layout;
+    const bool takesOver = owner == kNone || (uses[i].writes && !uses[i].needsContent && !sameLayout);
+    if (takesOver) owner = queues[uses[i].queue].family;
+    if (owner != queues[uses[i].queue].family) return true;
+  }
+  return outside != kNone && owner != outside;
+}
+
 }  // namespace
 
 void assignQueues(const Declaration& declaration, std::span<const QueueFacts> queues, bool useQueues,
@@ -71,10 +87,11 @@ std::vector<Sharing> sharingOf(const Declaration& declaration, const Cells& cell
   result.assign(declaration.resources.size(), Sharing::none);
   for (uint32_t resource = 0; resource < declaration.resources.size(); ++resource) {
     const DeclaredResource& declared = declaration.resources[resource];
-    bool severalFamilies = false, severalAtOnce = false;
+    bool severalFamilies = false, severalAtOnce = false, changesFamily = false;
     uint32_t family = declared.observable() ? queues[0].family : kNone;
     for (uint32_t cell = cells.firstOf(resource); cell < cells.firstOf(resource) + cells.countOf(resource); ++cell) {
       const std::span<const CellUse> uses = timeline.of(cell);
+      changesFamily = changesFamily || contentChangesFamily(declared, uses, queues);
       for (std::size_t first = 0; first < uses.size();) {
         const Epoch epoch = epochAt(uses, first);
         for (const CellUse& use : epoch.uses) {
@@ -89,6 +106,7 @@ std::vector<Sharing> sharingOf(const Declaration& declaration, const Cells& cell
     }
     if (!severalFamilies) continue;
     result[resource] = !severalAtOnce        ? Sharing::exclusive
+                       : !changesFamily      ? Sharing::none
                        : declared.imported() ? Sharing::inTurns
                                              : Sharing::concurrent;
   }

@@ -21,7 +21,7 @@ void assignQueues(const Declaration& declaration, std::span<const QueueFacts> qu
 
 /// How a resource passes between the queue families that use it.
 enum class Sharing : uint8_t {
-  none,        ///< One family uses it; queues of one family share freely.
+  none,        ///< One family uses it, or each family what it has written itself; queues of one family share freely.
   exclusive,   ///< Ownership is transferred whenever another family needs its content.
   concurrent,  ///< Several families read it at once, so it is made with VK_SHARING_MODE_CONCURRENT.
   inTurns,     ///< Exclusive even though several families read the same content: the host made it, and the graph

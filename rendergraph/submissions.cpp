@@ -1,6 +1,7 @@
 // Between two uses of a cell that must not touch, on different queues, stands a semaphore. Which of them are needed
 // is found with vector clocks: for every queue, how far it knows each other queue to be. A wait is left out when the
 // queue knows enough already, be it through a third queue; then only its stages are added to the wait that told it.
+// Which of these nobody relies on shows when the barriers are known (wait_needs.h).
 #include "rendergraph/submissions.h"
 
 #include <algorithm>
@@ -168,10 +169,9 @@ class Clocks {
           std::any_of(last.begin(), last.end(), [&](const Dependency& d) { return schedule_.queue[d.from] == queue; });
       if (queue != 0 && !found) last.push_back({step, schedule_.steps(), 0});
     }
-    for (const Dependency& dependency : last) {
-      const auto before = waits.size();
-      wait(dependency);
-      if (waits.size() > before) waits.back().stages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    for (const Dependency& dependency : last) wait(dependency);
+    for (Wait& wait : waits) {
+      if (wait.to == schedule_.steps()) wait.stages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
     }
   }
 

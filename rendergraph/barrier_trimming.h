@@ -1,0 +1,56 @@
+// Takes from barriers and semaphore waits what other waits, or those of the host, have seen to. Pure.
+//
+// A barrier on one queue is needed in every bit, as long as nothing else orders that queue. A semaphore to another queue
+// and back does, for everything that was on the queue before; so does the host when it waits in the middle of a plan.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "rendergraph/barrier_placement.h"
+#include "rendergraph/barriers.h"
+#include "rendergraph/cell_hazards.h"
+#include "rendergraph/occupants.h"
+#include "rendergraph/queue_order.h"
+#include "rendergraph/timeline.h"
+#include "rendergraph/wait_needs.h"
+
+namespace rendergraph {
+
+class BarrierTrimming {
+ public:
+  BarrierTrimming(const BarrierInputs& inputs, const Plan& plan);
+
+  /// The following epochs are those of this cell, one after the other.
+  void begin(uint32_t resource, uint32_t cell, std::span<const Occupant> occupants) {
+    hazards_.begin(resource, cell, occupants);
+  }
+  /// `found` from the index on are the barriers that the epoch needs when nothing else orders it.
+  void trim(const Epoch& epoch, std::vector<FoundBarrier>& found, std::size_t first);
+  /// After the last cell: whether they must all be gone through once more.
+  bool again();
+  /// After the last cell: of all barriers, those at the end lose the stages that only the next frame might have needed.
+  void trimEnds(std::vector<FoundBarrier>& found) const;
+  /// After the last cell: leaves the waits that what is left of the barriers relies on.
+  void trimWaits(Plan& plan) { needs_.minimize(order_, plan); }
+
+ private:
+  TimedBarrier timed(const FoundBarrier& found) const;
+  template <class Member>
+  void trimBits(TimedBarrier& barrier, Member member, uint64_t except = 0);
+  bool isEnd(const FoundBarrier& found) const;
+  VkPipelineStageFlags2 endStages(uint32_t resource) const;
+  void trim(TimedBarrier& barrier);
+
+  const BarrierInputs& in_;
+  const Plan& plan_;
+  uint32_t lastSubmission_;
+  QueueOrder order_;
+  CellHazards hazards_;
+  WaitNeeds needs_;
+  std::vector<TimedBarrier> barriers_;  // Of the epoch.
+};
+
+}  // namespace rendergraph

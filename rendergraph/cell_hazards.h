@@ -1,0 +1,135 @@
+// What the uses of a cell have to respect, and whether barriers, semaphores and the host's waiting see to it. Pure.
+//
+// Every use leaves a record for each of its stages, and every change of layout or owner one at no stage. On a queue,
+// stages come after a record when
+//   a barrier has the record in its first scope and the stages in its second: because it is of the same queue and one
+//   of the first stages, or because a first stage came after it already;
+//   or they have waited for a semaphore, or the host has, that covers the record.
+// A semaphore makes available what was written, and visible to every access of the stages that wait.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "rendergraph/barrier_placement.h"
+#include "rendergraph/barriers.h"
+#include "rendergraph/occupants.h"
+#include "rendergraph/queue_order.h"
+#include "rendergraph/timeline.h"
+#include "rendergraph/wait_needs.h"
+
+namespace rendergraph {
+
+/// A barrier and when it takes effect.
+struct TimedBarrier {
+  ImageBarrier barrier;  ///< Of a buffer too.
+  uint32_t queue = 0;
+  uint32_t step = 0;         ///< Of the use that it stands before; 0: at the end of a submission.
+  uint32_t submission = 0;   ///< Where it stands at the latest.
+  uint32_t scopeEnds = 0;    ///< Submission where its first scope ends: earlier if it may be moved or is split.
+  uint32_t takesEffect = 0;  ///< Submission where its second scope begins: earlier if it may be moved.
+  bool absent = false;
+
+  bool transfers() const { return barrier.fromQueue != barrier.toQueue; }
+  bool acquires() const { return transfers() && barrier.toQueue == queue; }
+  bool writes() const { return transfers() || barrier.oldLayout != barrier.newLayout; }
+};
+
+class CellHazards {
+ public:
+  CellHazards(const BarrierInputs& inputs, const Plan& plan, const QueueOrder& order);
+
+  /// Goes to the time before the graph.
+  void begin(uint32_t resource, uint32_t cell, std::span<const Occupant> occupants);
+  /// The next epoch of the cell, which the following calls are about.
+  void enter(const Epoch& epoch);
+  /// Forgets at which stage resources end a frame for the next one's sake, where that is of no use here.
+  void dropEndStages(std::span<const TimedBarrier> barriers);
+  /// After the last cell: whether the next frame relies on the stage at which the graph's last barrier of a resource
+  /// ends, when nobody else does.
+  bool needsEndStage(uint32_t resource) const { return ends_[resource].needed; }
+  /// Whether the stage at which some resource ends was of use to one of its successors, and taken for useless for
+  /// another. Then all cells must be gone through again; what is of use is known this time.
+  bool hesitated();
+  /// Whether nothing is missing with these barriers, in the order in which they take effect.
+  bool respected(std::span<const TimedBarrier> barriers);
+  /// Goes to the time after the epoch, and notes what it relied on. Precondition: nothing is missing.
+  void leave(std::span<const TimedBarrier> barriers, WaitNeeds& needs);
+
+ private:
+  using Moment = QueueOrder::Moment;
+  static constexpr uint32_t kOnEveryQueue = UINT32_MAX;
+  /// The second scope of a barrier that had the record in its first.
+  struct Passed {
+    uint32_t queue = 0;
+    VkPipelineStageFlags2 stages = 0;
+    VkAccessFlags2 access = 0;
+    std::vector<WaitStage> through;  // It was there if one of these had waited; none: in any case.
+    bool operator==(const Passed&) const = default;
+  };
+  struct Record {
+    Moment moment = 0;
+    uint32_t queue = 0;
+    VkPipelineStageFlags2 stages = 0;  // One, as its elementary ones; 0: by a change of layout or owner.
+    VkAccessFlags2 written = 0;
+    bool write = false;
+    bool seen = false;       // By a read.
+    bool settled = false;    // The host had waited before the graph.
+    bool byHost = false;     // Nothing has to make it visible once the host is done.
+    uint32_t available = 0;  // Queues, one bit each, on which it is.
+    std::vector<Passed> passed;
+    uint32_t endOf = UINT32_MAX;  // Resource that has `passed` for the next frame's sake only.
+    bool operator==(const Record&) const = default;
+  };
+  struct Touch {
+    VkPipelineStageFlags2 stages;  // One, as its elementary ones.
+    VkAccessFlags2 access;
+  };
+  struct Use {
+    uint32_t queue, step, submission;
+    bool reads, writes;
+    uint32_t firstTouch, endTouch;  // Of touches_.
+  };
+  enum class Reach : uint8_t { no, throughWaits, always };
+
+  void addUse(const CellUse& use);
+  void addTouch(std::size_t first, VkPipelineStageFlags2 stages, VkAccessFlags2 access);
+  void addRecords(const Use& use, Moment moment, std::vector<Record>& records) const;
+  void addOutside(const DeclaredResource& resource);
+  const std::vector<Record>& leftBy(uint32_t resource);
+  void addLeft(uint32_t resource, uint32_t cell, std::vector<Record>& records);
+  Record writtenBy(const TimedBarrier& barrier) const;
+
+  bool settled(const Record& record, uint32_t submission) const;
+  template <class Serves>
+  void addThrough(const Record& record, uint32_t queue, uint32_t submission, Serves&& serves);
+  Reach inFirstScope(const Record& record, const TimedBarrier& barrier);
+  bool makesAvailable(const Record& record, const TimedBarrier& barrier) const;
+  Reach available(const Record& record, uint32_t queue, uint32_t submission);
+  Reach reached(const Record& record, const Use& use, const Touch& touch, std::span<const TimedBarrier> barriers);
+  bool respects(const Use& use, const Record& record, std::span<const TimedBarrier> barriers, WaitNeeds* needs);
+  bool canWrite(const TimedBarrier& barrier, const Record& record, WaitNeeds* needs);
+  bool check(std::span<const TimedBarrier> barriers, WaitNeeds* needs);
+  void pass(Record& record, const TimedBarrier& barrier, WaitNeeds& needs);
+  bool note(Reach reach, const Record& record, WaitNeeds* needs);
+  void noteHost(const Record& record, uint32_t submission, WaitNeeds* needs) const;
+
+  const BarrierInputs& in_;
+  const Plan& plan_;
+  const QueueOrder& order_;
+  uint32_t resource_ = 0, cell_ = 0;
+  std::vector<Record> records_;
+  std::vector<Use> uses_;  // Of the epoch.
+  std::vector<Touch> touches_;
+  std::vector<WaitStage> through_;  // Of the question being answered; one is enough unless all are listed.
+  bool listAll_ = false;
+  std::vector<std::vector<Record>> left_;  // By resource.
+  std::vector<uint8_t> leftKnown_;         // By resource.
+  struct EndStage {
+    bool needed = true, dropped = false, known = false;
+  };
+  std::vector<EndStage> ends_;  // By resource.
+};
+
+}  // namespace rendergraph

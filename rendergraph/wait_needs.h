@@ -1,0 +1,53 @@
+// Which stages of which semaphore waits the barriers and uses of a plan rely on. Those that nothing relies on are taken
+// away. Pure.
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "rendergraph/plan.h"
+#include "rendergraph/queue_order.h"
+
+namespace rendergraph {
+
+/// One stage of one wait.
+struct WaitStage {
+  uint32_t wait = 0;           ///< Index in Plan::submissionWaits.
+  uint32_t stage = 0;          ///< Number of the bit.
+  bool inFrameBefore = false;  ///< The wait of the frame before; it has the same stages.
+  auto operator<=>(const WaitStage&) const = default;
+  bool sameAs(const WaitStage& other) const { return wait == other.wait && stage == other.stage; }
+};
+
+class WaitNeeds {
+ public:
+  /// Something relies on one of the stages to have waited for the moment, no matter which.
+  void needOneOf(QueueOrder::Moment moment, std::vector<WaitStage>& stages);
+  /// Something relies on the order of two moments, through whatever waits.
+  void needOrder(QueueOrder::Moment moment, QueueOrder::Moment later);
+
+  /// `order` is that of the plan. The waits of the last submission stay: they stand for the end of the frame.
+  void minimize(QueueOrder& order, Plan& plan) const;
+
+ private:
+  struct Need {
+    QueueOrder::Moment moment;
+    uint32_t first, end;  // Of stages_.
+  };
+  struct Ordered {
+    QueueOrder::Moment moment, later;
+  };
+  enum class Last { mayGo, stays };  // Stage of a wait.
+  void takeStages(Plan& plan, Last last) const;
+  void takeWaits(QueueOrder& order, Plan& plan) const;
+  std::optional<uint32_t> onlyWait(const Need& need, const Plan& plan) const;
+  bool met(const QueueOrder& order, const Plan& plan) const;
+
+  std::vector<WaitStage> stages_;
+  std::vector<Need> needs_;
+  std::vector<Ordered> ordered_;
+};
+
+}  // namespace rendergraph
