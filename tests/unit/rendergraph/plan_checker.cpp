@@ -65,18 +65,14 @@ std::vector<Weakening> weakenings(const ImageBarrier& barrier, bool image) {
 
 class Search {
  public:
-  explicit Search(const Setting& setting) : setting_(setting), withoutHost_(setting, false), withHost_(setting, true) {}
+  explicit Search(const Setting& setting) : setting_(setting), replay_(setting) { replay_.run(); }
 
   Superfluous run() {
-    // What only repeats the host's waiting is allowed: that counts for a resource only where the plan relies on it.
-    const bool relies = !withoutHost_.run().empty() && withHost_.run().empty();
     for (uint32_t i = 0; i < setting_.declaration.resources.size(); ++i) {
-      replay_ = relies && !withoutHost_.sound(i) ? &withHost_ : &withoutHost_;
       weakenBarriers(i);
       weakenAttachments(i);
-      if (replay_->of(i).concurrent()) attempt(i, {.exclusive = true}, "concurrent sharing", "without it");
+      if (replay_.of(i).concurrent()) attempt(i, {.exclusive = true}, "concurrent sharing", "without it");
     }
-    replay_ = relies ? &withHost_ : &withoutHost_;
     weakenWaits();
     return std::move(result_);
   }
@@ -84,14 +80,14 @@ class Search {
  private:
   void attempt(uint32_t resource, const Change& change, const std::string& of, const char* what) {
     ++result_.attempts;
-    if (!replay_->holds(resource, change)) return;
+    if (!replay_.holds(resource, change)) return;
     const std::string name(setting_.declaration.resources[resource].name);
     result_.findings.push_back(of + " of '" + name + "': nothing is missing " + what);
   }
 
   void weakenBarriers(uint32_t resource) {
     const bool image = setting_.declaration.resources[resource].isImage;
-    const std::vector<Placed>& barriers = replay_->of(resource).barriers();
+    const std::vector<Placed>& barriers = replay_.of(resource).barriers();
     for (uint32_t i = 0; i < barriers.size(); ++i) {
       for (const auto& [what, changed] : weakenings(barriers[i].barrier, image)) {
         const char* kind = barriers[i].setKey != 0 ? "event before step " : "barrier before step ";
@@ -102,7 +98,7 @@ class Search {
   }
 
   void weakenAttachments(uint32_t resource) {
-    for (const auto& [attachment, load] : replay_->of(resource).operations()) {
+    for (const auto& [attachment, load] : replay_.of(resource).operations()) {
       attempt(resource, {.attachment = attachment, .load = load},
               (load ? "load operation " : "store operation ") + std::to_string(attachment), "with DONT_CARE");
     }
@@ -110,7 +106,7 @@ class Search {
 
   /// The wait without each of its stages; ALL_COMMANDS counts as every stage of the queue.
   void weakenWaits() {
-    const std::vector<Wait> waits = replay_->order().semaphores();
+    const std::vector<Wait> waits = replay_.order().semaphores();
     for (std::size_t i = 0; i < waits.size(); ++i) {
       std::vector<Wait> without = waits;
       without.erase(without.begin() + static_cast<std::ptrdiff_t>(i));
@@ -118,7 +114,7 @@ class Search {
       const bool all = (waits[i].stages & VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT) != 0;
       // The last submission stands for the end of the frame: it waits for everything, at whatever stage.
       if (all && waits[i].submission + 1 == setting_.plan.submissions.size()) continue;
-      const uint32_t queue = replay_->order().queueOf(waits[i].submission);
+      const uint32_t queue = replay_.order().queueOf(waits[i].submission);
       const VkPipelineStageFlags2 stages =
           all ? stageFlags(stagesOf(setting_.device.queues()[queue]) & kDeviceStages) : waits[i].stages;
       for (uint64_t left = stages; left != 0 && !std::has_single_bit(stages); left &= left - 1) {
@@ -131,15 +127,14 @@ class Search {
 
   void tryWaits(const Wait& wait, const std::vector<Wait>& changed, const char* what) {
     ++result_.attempts;
-    if (!replay_->holds(changed, wait.submission)) return;
+    if (!replay_.holds(changed, wait.submission)) return;
     std::ostringstream text;
     text << "wait of submission " << wait.submission << " for " << wait.target << ": nothing is missing " << what;
     result_.findings.push_back(text.str());
   }
 
   const Setting& setting_;
-  PlanReplay withoutHost_, withHost_;
-  PlanReplay* replay_ = nullptr;
+  PlanReplay replay_;
   Superfluous result_;
 };
 
@@ -182,7 +177,7 @@ std::vector<Finding> findMissing(const Setting& setting) {
   if (!findings.empty()) return findings;
   findings = checkMemory(setting);
   if (!findings.empty()) return findings;
-  return PlanReplay(setting, true).run();
+  return PlanReplay(setting).run();
 }
 
 Superfluous findSuperfluous(const Setting& setting) {
@@ -190,7 +185,7 @@ Superfluous findSuperfluous(const Setting& setting) {
 }
 
 uint32_t fewestBatches(const Setting& setting) {
-  PlanReplay replay(setting, true);
+  PlanReplay replay(setting);
   replay.run();
   const std::vector<std::vector<Place>> places = placesOf(setting, replay.order());
   std::vector<std::vector<std::pair<uint32_t, uint32_t>>> ranges(places.size());

@@ -20,11 +20,12 @@
 //
 // Semaphores. The signal at the end of a submission covers all that its queue was given before and what that has
 // waited for, and makes its writes available. The wait orders it before the named stages of the waiting submission
-// and of all later ones on that queue, and makes it visible to them; barriers may chain from there.
+// and of all later ones on that queue, and makes it visible to them; barriers may chain from there. What was written
+// is available where it is known to be: on the queue that waits, or behind the barrier that made it so.
 //
 // Host. The submission of a host pass is waited for: all that it covers comes before the host and before whatever
 // follows in the list, and its writes are available. What the host reads needs a barrier to its stage; what it writes
-// before a submission is visible to the device. A barrier or wait that only repeats this is not called superfluous.
+// before a submission is visible to the device, and to itself.
 //
 // Queue families. An exclusive resource belongs to one family. Another one may use it after a release, in a barrier
 // of the owner's queue, and a matching acquire (same layouts and range) that is ordered after it; or by dropping the
@@ -86,7 +87,7 @@ struct Superfluous {
   uint32_t attempts = 0;  ///< Weakenings tried.
 };
 /// Weakens the plan in every single way: every barrier and event (without it, without one stage, one access, one mip
-/// or layer, with a wrong layout), every semaphore wait (without one stage), every load and store operation (with
+/// or layer, with a wrong layout), every semaphore wait (without it, without one stage), every load and store operation (with
 /// DONT_CARE), every concurrent resource (exclusive). Reports each weakening after which nothing is missing. So it
 /// finds what is superfluous in a plan, and at the same time shows that findMissing() notices every single fault.
 Superfluous findSuperfluous(const Setting& setting);

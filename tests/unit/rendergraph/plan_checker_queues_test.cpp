@@ -148,6 +148,30 @@ TEST_F(PlanChecker, QueuesAreNotOrderedByTheList) {
       planWith({}), [](Plan&) {}, Hazard::writeAfterRead);
 }
 
+TEST_F(PlanChecker, AvailabilityIsKnownOnlyToTheQueueThatWaits) {
+  Buffer buffer = graph.createBuffer("buffer", kBuffer);
+  Pass writing = graph.addPass("write", PassKind::compute);
+  buffer = writing.write(buffer, Usage::storage);
+  for (const char* name : {"there", "here"}) {
+    Pass reading = graph.addPass(name, PassKind::compute);
+    reading.read(buffer, Usage::storage, kCompute);
+    reading.sideEffect();
+  }
+  device = TestDevice({TestDevice::kAll, TestDevice::kAll});
+  const Plan plan = PlanMaker(graph, device)
+                        .submission(0)
+                        .step(0)
+                        .submission(1, {{0, kCompute}})
+                        .step(1)
+                        .submission(0)
+                        .step(2, {}, {between(buffer, at(kCompute, kStorageWrite), at(kCompute, kStorageRead))})
+                        .submission(0, {{1, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT}})
+                        .finish();
+  expectExact(plan, 6);
+  expectHazard(
+      plan, [](Plan& p) { p.bufferBarriers[0].from.access = 0; }, Hazard::readAfterWrite);
+}
+
 TEST_F(PlanChecker, RetainedResourcesRestOnTheFirstQueue) {
   Buffer buffer = graph.persistentBuffer("buffer", kBuffer);
   Pass pass = graph.addPass("modify", PassKind::compute);

@@ -7,8 +7,8 @@ namespace plan_checker {
 
 using namespace rendergraph;
 
-PlanOrder::PlanOrder(const Declaration& declaration, const Plan& plan, uint32_t frames, bool hostOrders)
-    : frames_(frames), hostOrders_(hostOrders), steps_(plan.passes.size()), submissionOf_(plan.passes.size()) {
+PlanOrder::PlanOrder(const Declaration& declaration, const Plan& plan, uint32_t frames)
+    : frames_(frames), steps_(plan.passes.size()), submissionOf_(plan.passes.size()) {
   uint32_t key = 0;
   std::vector<Wait> waits;
   for (uint32_t index = 0; index < plan.submissions.size(); ++index) {
@@ -67,7 +67,7 @@ void PlanOrder::connect(const std::vector<Wait>& waits) {
       const uint32_t self = node(frame, index);
       reach_[self * words_ + self / 64] |= uint64_t{1} << (self % 64);
       if (last[queues_[index]] != kNever) include(self, last[queues_[index]]);
-      if (hostOrders_ && hostDone != kNever) include(self, hostDone);
+      if (hostDone != kNever) include(self, hostDone);
       for (; wait != semaphores_.end() && wait->submission == index; ++wait) {
         include(self, node(frame, wait->target));
         wait->key = begin_[index];

@@ -3,8 +3,8 @@
 //
 // The signal at the end of a submission covers everything that its queue was given before, and all that this has
 // waited for: a signal's first scope is every stage, so a chain through it never breaks, whatever the stages of the
-// waits. When `hostOrders` is set, whatever comes after a host pass in the list also comes after all that its
-// submission covers, because the host waits. Node 0 stands for what came before the frame, on queue 0; when two
+// waits. Whatever comes after a host pass in the list also comes after all that its submission covers, because the
+// host waits. Node 0 stands for what came before the frame, on queue 0; when two
 // frames follow each other, the second one's submissions have nodes of their own.
 #pragma once
 
@@ -36,8 +36,7 @@ class PlanOrder {
     uint32_t before = 0, use = 0, eventSet = 0;
   };
 
-  PlanOrder(const rendergraph::Declaration& declaration, const rendergraph::Plan& plan, uint32_t frames,
-            bool hostOrders);
+  PlanOrder(const rendergraph::Declaration& declaration, const rendergraph::Plan& plan, uint32_t frames);
 
   /// Takes other semaphore waits than the plan's, in the order of the submissions.
   void connect(const std::vector<Wait>& waits);
@@ -46,7 +45,6 @@ class PlanOrder {
   const std::vector<Wait>& milestones() const { return milestones_; }
 
   uint32_t frames() const { return frames_; }
-  bool hostOrders() const { return hostOrders_; }
   uint32_t span() const { return span_; }  ///< Greater than every key.
   const StepKeys& keysOf(uint32_t step) const { return steps_[step]; }
   uint32_t keyBegin(uint32_t submission) const { return begin_[submission]; }
@@ -71,7 +69,6 @@ class PlanOrder {
 
  private:
   uint32_t frames_;
-  bool hostOrders_;
   uint32_t span_ = 0;
   std::vector<StepKeys> steps_;
   std::vector<uint32_t> submissionOf_, renderings_;          // By step.

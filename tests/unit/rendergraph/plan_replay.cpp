@@ -17,9 +17,8 @@ struct OwnedBytes {
 
 }  // namespace
 
-PlanReplay::PlanReplay(const Setting& setting, bool hostOrders)
-    : setting_(setting),
-      order_(setting.declaration, setting.plan, setting.options.overlappingFrames ? 2 : 1, hostOrders) {
+PlanReplay::PlanReplay(const Setting& setting)
+    : setting_(setting), order_(setting.declaration, setting.plan, setting.options.overlappingFrames ? 2 : 1) {
   const Declaration& declaration = setting.declaration;
   std::vector<uint32_t> stepOfPass(declaration.passes.size(), UINT32_MAX);
   for (uint32_t step = 0; step < setting.plan.passes.size(); ++step) stepOfPass[setting.plan.passes[step].pass] = step;
@@ -136,12 +135,10 @@ std::vector<Finding> PlanReplay::run() {
   std::vector<Finding> findings = overlaps_;
   remaining_ = nothingLeft();
   inherited_.assign(order_.frames(), std::vector<std::vector<Record>>(replays_.size()));
-  faulty_.assign(replays_.size(), false);
   for (uint32_t frame = 0; frame < order_.frames(); ++frame) {
     for (uint32_t i : sequence_) {
       inherited_[frame][i] = inherited(frame, i, remaining_);
       replays_[i].run(frame, inherited_[frame][i], &findings);
-      faulty_[i] = faulty_[i] || replays_[i].failed();
       remaining_[frame][i] = replays_[i].remaining();
     }
   }

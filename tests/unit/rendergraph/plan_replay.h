@@ -12,15 +12,12 @@ namespace plan_checker {
 
 class PlanReplay {
  public:
-  /// `hostOrders`: whether waits of the host count as dependencies.
-  PlanReplay(const Setting& setting, bool hostOrders);
+  explicit PlanReplay(const Setting& setting);
   PlanReplay(const PlanReplay&) = delete;
   PlanReplay& operator=(const PlanReplay&) = delete;
 
   /// Replays everything and keeps what is handed on.
   std::vector<Finding> run();
-  /// After run(): whether nothing is missing for one resource.
-  bool sound(uint32_t resource) const { return !faulty_[resource]; }
   /// After run(): whether nothing is missing for one resource with a change.
   bool holds(uint32_t resource, const Change& change);
   /// After run(): whether nothing is missing with other semaphore waits, of which those of `from` and later
@@ -47,7 +44,6 @@ class PlanReplay {
   std::vector<std::vector<std::vector<Occupant>>> before_;   // By frame and resource: earlier owners of its memory.
   std::vector<std::vector<std::vector<Record>>> inherited_;  // By frame and resource.
   RecordTable remaining_;
-  std::vector<bool> faulty_;  // By resource.
   std::vector<Finding> overlaps_;
 };
 

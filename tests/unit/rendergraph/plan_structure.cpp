@@ -148,7 +148,7 @@ class Structure {
     expect(plan_.submissions.front().queue == 0 && plan_.submissions.back().queue == 0,
            "the first and the last submission are not on the first queue");
     if (!findings_.empty() || !several) return;
-    expect(PlanOrder(declaration_, plan_, 1, false).edgesHold(), "the last submission does not wait for all");
+    expect(PlanOrder(declaration_, plan_, 1).edgesHold(), "the last submission does not wait for all");
   }
 
   void checkWaits(uint32_t index) {

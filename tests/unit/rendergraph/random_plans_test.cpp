@@ -93,35 +93,22 @@ Counts expectNothingMissing(Vary vary) {
 
 void expectNothingSuperfluous(Vary vary) {
   constexpr uint32_t kGraphs = 3000;
-  uint64_t attempts = 0, tolerated = 0, waits = 0, needlessWaits = 0;
+  uint64_t attempts = 0, severalQueues = 0, waits = 0;
   for (uint32_t seed = 100000; seed < 100000 + kGraphs; ++seed) {
     Case random(seed, vary);
     random.options.barriers = BarrierPlacement::beforeUse;
     const Plan plan = random.compile();
     const plan_checker::Superfluous superfluous = plan_checker::findSuperfluous(random.setting(plan));
+    ASSERT_TRUE(superfluous.findings.empty()) << "seed " << seed << ": " << superfluous.findings.front();
     attempts += superfluous.attempts;
     waits += plan.submissionWaits.size();
-    const bool severalQueues =
+    severalQueues +=
         std::any_of(plan.passes.begin(), plan.passes.end(), [](const PlannedPass& pass) { return pass.queue != 0; });
-    for (const std::string& finding : superfluous.findings) {
-      // Between queues not every bit is needed: a queue that waits for another one, which waited for the first, needs
-      // less of a barrier of its own in between, and where a barrier follows a wait, one stage would do for the wait.
-      // compile() looks for neither. Whole waits that nobody needs are rare.
-      // Neither for what the host's waiting in the middle of a plan has done already.
-      ASSERT_TRUE(severalQueues || plan.submissions.size() > 1) << "seed " << seed << ": " << finding;
-      if (finding.starts_with("wait") && finding.ends_with("without it")) {
-        ++needlessWaits;
-      } else {
-        ++tolerated;
-      }
-    }
   }
-  std::cout << kGraphs << " graphs, " << attempts << " weakened plans, all but " << tolerated
-            << " (between queues) found faulty\n";
-  EXPECT_GT(attempts, 100000u);
-  EXPECT_LT(tolerated, attempts / 10);
-  std::cout << needlessWaits << " of " << waits << " semaphore waits are needless\n";
-  EXPECT_LE(needlessWaits, waits / 100);
+  std::cout << kGraphs << " graphs, " << severalQueues << " of them on several queues with " << waits
+            << " semaphore waits; " << attempts << " weakened plans, all found faulty\n";
+  EXPECT_GT(attempts, 500000u);
+  EXPECT_GT(severalQueues, kGraphs / 2);
 }
 
 }  // namespace
@@ -149,23 +136,12 @@ TEST(RandomPlans, EveryBitIsNeededWithAnyOption) {
 
 TEST(RandomPlans, BatchesAreTheFewest) {
   constexpr uint32_t kGraphs = 1000;
-  uint32_t exact = 0;
   for (uint32_t seed = 200000; seed < 200000 + kGraphs; ++seed) {
     Case random(seed, Vary::everyOption, 40);
     random.options.barriers = BarrierPlacement::fewestBatches;
     random.options.splitDistance = 0;
     random.options.useQueues = false;
     const Plan plan = random.compile();
-    const uint32_t fewest = plan_checker::fewestBatches(random.setting(plan));
-    // Where the host waits for the device in the middle, a batch may repeat what that has done already.
-    const bool host = std::any_of(plan.passes.begin(), plan.passes.end(), [&](const PlannedPass& pass) {
-      return random.graph.declaration().passes[pass.pass].kind == PassKind::host;
-    });
-    ASSERT_GE(plan.barrierBatches, fewest) << "seed " << seed;
-    ASSERT_LE(plan.barrierBatches, fewest + (host ? 2 : 0)) << "seed " << seed;
-    exact += plan.barrierBatches == fewest;
+    ASSERT_EQ(plan.barrierBatches, plan_checker::fewestBatches(random.setting(plan))) << "seed " << seed;
   }
-  std::cout << exact << " of " << kGraphs
-            << " plans have the fewest batches, the others repeat what the host waits for\n";
-  EXPECT_GT(exact, kGraphs * 95 / 100);
 }

@@ -23,10 +23,10 @@ void setVisible(Touches& touches, StageMask stages, AccessMask access) {
 
 /// Ordered before whatever follows on every queue, and visible to all of it.
 void settle(Record& record, bool visible) {
-  record.available = record.available || record.write;
+  record.makeAvailable(Record::kEverywhere);
   for (StageMask& stages : record.ordered) stages |= kDeviceStages | kHostStage | kSettled;
   if (!visible) return;
-  for (Touches& touches : record.visible) setVisible(touches, kDeviceStages, kEverything);
+  for (Touches& touches : record.visible) setVisible(touches, kDeviceStages | kHostStage, kEverything);
 }
 
 }  // namespace
@@ -84,7 +84,7 @@ void ResourceReplay::addRestRecord(Subresource& subresource) const {
               .transition = true,
               .seen = true,
               .inherited = true,
-              .available = true,
+              .available = Record::kEverywhere,
               .pass = AccessPoint::kOutside,
               .node = order_.nodeBefore(frame_),
               .time = now_};
@@ -107,13 +107,14 @@ void ResourceReplay::addHostRecords(Subresource& subresource) const {
     Record record = outside;
     record.stage = 1u << i;
     // What the host itself did is over, and known to the device, when a submission begins.
-    if (record.stage == kHostStage && order_.hostOrders()) settle(record, true);
+    if (record.stage == kHostStage) settle(record, true);
     subresource.records.push_back(record);
   }
   if (stages == 0 || write) return;
   // Whoever wrote it before has made it visible to the host's reads, and to nothing else as far as we know.
   Record content = outside;
-  content.write = content.transition = content.seen = content.available = true;
+  content.write = content.transition = content.seen = true;
+  content.available = Record::kEverywhere;
   content.access = 0;
   content.ordered[0] = stages;
   setVisible(content.visible[0], stages, access);
@@ -137,10 +138,10 @@ void ResourceReplay::pass(const Wait& milestone) {
     for (Record& record : subresource.records) {
       if (!order_.covers(target, record.node)) continue;
       if (!milestone.hostDone) {
-        record.available = record.available || record.write;
+        record.makeAvailable(1u << queue);
         record.ordered[queue] |= stages;
         if (record.write) setVisible(record.visible[queue], stages, kEverything);
-      } else if (order_.hostOrders()) {
+      } else {
         settle(record, record.write && record.stage == kHostStage);
       }
     }
@@ -179,7 +180,7 @@ void ResourceReplay::setEvent(const Placed& placed, const ImageBarrier& barrier,
 void ResourceReplay::passOn(Record& record, const Placed& placed, const ImageBarrier& barrier) const {
   const StageMask target = stageMask(barrier.to.stages);
   record.ordered[placed.queue] |= target;
-  if (!record.available) return;
+  if (!record.availableOn(placed.queue)) return;
   const AccessMask access = accessMask(barrier.to.access);
   setVisible(record.visible[placed.queue], target, access);
   if ((target & kHostStage) == 0) return;
@@ -190,7 +191,7 @@ void ResourceReplay::passOn(Record& record, const Placed& placed, const ImageBar
 void ResourceReplay::replaceRecords(Subresource& subresource, const Placed& placed, const ImageBarrier& barrier) {
   Record written{.write = true,
                  .transition = true,
-                 .available = true,
+                 .available = Record::kEverywhere,
                  .pass = barrier.to.pass,
                  .queue = placed.queue,
                  .node = order_.node(frame_, placed.submission),
@@ -249,11 +250,11 @@ void ResourceReplay::applyBarrier(Subresource& subresource, const Placed& placed
     const bool covered = (record.access & kWrites & ~accessMask(barrier.from.access)) == 0;
     const bool makesAvailable = event ? (record.eventsWithAccess & bit) != 0
                                       : record.queue == placed.queue && (record.stage & source) != 0 && covered;
-    if (waited && record.write && makesAvailable) record.available = true;
+    if (waited && makesAvailable) record.makeAvailable(1u << placed.queue);
     if (waited) passOn(record, placed, barrier);
     record.events &= ~bit;
     record.eventsWithAccess &= ~bit;
-    if (!transition || (waited && (!record.write || record.available))) continue;
+    if (!transition || (waited && (!record.write || record.availableOn(placed.queue)))) continue;
     fail(record.inherited ? Hazard::alias : Hazard::layout, placed.step, "a layout transition does not wait for ",
          record);
   }
@@ -323,7 +324,7 @@ void ResourceReplay::checkOwner(Subresource& subresource, const Use& use, const 
 
 AccessMask ResourceReplay::visibleTo(const Record& record, uint32_t stage, const StepUse& at, uint32_t node) const {
   const AccessMask visible = record.visible[at.queue][stage];
-  if (stage != kHostIndex || !order_.hostOrders() || record.hostVisible == 0) return visible;
+  if (stage != kHostIndex || record.hostVisible == 0) return visible;
   return visible | (order_.covers(node, record.hostNode) ? record.hostVisible : 0);
 }
 
@@ -339,10 +340,10 @@ void ResourceReplay::checkAgainst(Record& record, const Use& use, const StepUse&
                         : use.reads      ? Hazard::readAfterWrite
                                          : Hazard::writeAfterWrite;
   StageMask unordered = use.stages & ~record.ordered[at.queue];
-  if (order_.hostOrders() && order_.covers(node, record.node)) unordered &= ~kHostStage;  // The host waits.
+  if (order_.covers(node, record.node)) unordered &= ~kHostStage;  // The host waits.
   if (unordered != 0) return fail(hazard, at.step, "it does not wait for ", record);
   if (!record.write) return;
-  if (!record.available) fail(hazard, at.step, "not available is what was written by ", record);
+  if (!record.availableOn(at.queue)) fail(hazard, at.step, "not available is what was written by ", record);
   for (uint32_t i = 0; i < kStageCount; ++i) {
     AccessMask needed = use.touches[i];
     if (record.seen) needed = use.reads ? needed & kReads : 0;

@@ -20,7 +20,7 @@ struct Record {
   bool transition = false;  ///< By a layout transition or transfer: at no stage, always available.
   bool seen = false;        ///< A read has seen it.
   bool inherited = false;   ///< Of another resource in the same memory, or of the frame before.
-  bool available = false;
+  uint32_t available = 0;   ///< Queues, one bit each, on which what it wrote is known to be available.
   bool attachment = false;  ///< By an attachment, and nothing else.
   uint32_t pass = 0;
   uint32_t queue = 0, node = 0, time = 0;
@@ -33,6 +33,10 @@ struct Record {
   std::array<Touches, kMaxQueues> visible{};
   uint64_t events = 0, eventsWithAccess = 0;  ///< Set after it, and not yet waited for.
   bool operator==(const Record&) const = default;
+
+  static constexpr uint32_t kEverywhere = (1u << kMaxQueues) - 1;
+  void makeAvailable(uint32_t queues) { available |= write ? queues : 0; }
+  bool availableOn(uint32_t on) const { return (available >> on & 1) != 0; }
 };
 
 /// A barrier and where it stands. Buffers' have layouts UNDEFINED.
