@@ -7,20 +7,17 @@ using namespace rendergraph;
 
 namespace {
 
-constexpr std::array<VkPipelineStageFlags2, kStageCount> kStages = {VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
-                                                                    VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT,
-                                                                    VK_PIPELINE_STAGE_2_VERTEX_ATTRIBUTE_INPUT_BIT,
-                                                                    VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT,
-                                                                    VK_PIPELINE_STAGE_2_GEOMETRY_SHADER_BIT,
-                                                                    VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
-                                                                    VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT,
-                                                                    VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
-                                                                    VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
-                                                                    VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                                                                    VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
-                                                                    VK_PIPELINE_STAGE_2_HOST_BIT};
+constexpr std::array<VkPipelineStageFlags2, kStageCount> kStages = {
+    VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT,
+    VK_PIPELINE_STAGE_2_VERTEX_ATTRIBUTE_INPUT_BIT, VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT,
+    VK_PIPELINE_STAGE_2_GEOMETRY_SHADER_BIT, VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
+    VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT, VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
+    VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+    VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
+    // For all that no usage names, and ALL_COMMANDS reaches all the same.
+    VK_PIPELINE_STAGE_2_TESSELLATION_EVALUATION_SHADER_BIT, VK_PIPELINE_STAGE_2_HOST_BIT};
 
-constexpr StageMask kGraphicsStages = 0x1FF;  // The first nine: up to COLOR_ATTACHMENT_OUTPUT.
+constexpr StageMask kGraphicsStages = 0x9FF;  // The first nine, up to COLOR_ATTACHMENT_OUTPUT, and tessellation.
 
 // In the order of the mask's bits.
 constexpr std::array<VkAccessFlags2, 15> kAccesses = {VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT,

@@ -12,7 +12,7 @@
 
 namespace plan_checker {
 
-inline constexpr uint32_t kStageCount = 12;
+inline constexpr uint32_t kStageCount = 13;
 using StageMask = uint32_t;  ///< One bit for each elementary stage.
 /// The stages of the device and that of the host.
 inline constexpr StageMask kHostStage = 1u << (kStageCount - 1);
