@@ -1,7 +1,8 @@
 // Takes from barriers and semaphore waits what other waits, or those of the host, have seen to. Pure.
 //
-// A barrier on one queue is needed in every bit, as long as nothing else orders that queue. A semaphore to another queue
-// and back does, for everything that was on the queue before; so does the host when it waits in the middle of a plan.
+// A barrier on one queue is needed in every bit, as long as nothing else orders that queue. A semaphore to another
+// queue and back does, for everything that was on the queue before; so does the host when it waits in the middle of a
+// plan. Each bit of a barrier is tried without, once: what is needed now is needed all the more when others are gone.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,5 @@
-// The records that uses leave: those of the cell itself, of what was before the graph, and of who had the memory before.
+// The records that uses leave: those of the cell itself, of what was before the graph, and of who had the memory
+// before.
 #include <algorithm>
 
 #include "rendergraph/barrier_scopes.h"

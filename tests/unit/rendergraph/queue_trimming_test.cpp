@@ -1,5 +1,5 @@
-// What other waits see to is not asked for twice; one small plan for each kind. That nothing is superfluous in general is
-// for random_plans_test to show.
+// What other waits see to is not asked for twice; one small plan for each kind. That nothing is superfluous in general
+// is for random_plans_test to show.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
