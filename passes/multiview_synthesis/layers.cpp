@@ -73,7 +73,7 @@ std::vector<shared::SceneLayer> sceneLayers(std::span<const VergenceInterval> oc
   auto intervals = padded(occupied, 0.01 * wanted);
   const bool isFixed = spacing.fixedCount > 0;
   const uint32_t most = isFixed ? std::min(spacing.fixedCount, spacing.mostLayers) : spacing.mostLayers;
-  closeGaps(intervals, most, isFixed ? 0.0 : 0.25 * wanted);
+  closeGaps(intervals, most, isFixed ? 0.0 : spacing.smallestGap / spacing.pixelsPerVergence);
   const double whole = intervals.front().nearVergence - intervals.back().farVergence;
   const double thickness = thicknessFor(intervals, isFixed ? 0.01 * whole / most : wanted, most);
 
@@ -84,7 +84,7 @@ std::vector<shared::SceneLayer> sceneLayers(std::span<const VergenceInterval> oc
     const double overlap = kLayerOverlap * step;
     for (uint32_t i = 0; i < count; ++i) {
       const double near = interval.nearVergence - i * step;
-      const double far = i + 1 == count ? interval.farVergence : near - step;
+      const double far = i + 1 == count ? interval.farVergence : interval.nearVergence - (i + 1) * step;
       layers.push_back({.nearVergence = static_cast<float>(near),
                         .farVergence = static_cast<float>(far),
                         .nearest = static_cast<float>(near + overlap),

@@ -16,6 +16,7 @@ namespace passes::multiview_synthesis {
 struct LayerSpacing {
   double pixelsPerVergence = 1.0;  ///< px·m: how far a ray moves across the picture per 1/m; K times its |v|.
   double travel = 3.0;             ///< δ, px: most that a ray travels in one layer, if that many layers are allowed.
+  double smallestGap = 0.0;        ///< px: gaps narrower than this, by the same measure, are not worth a layer border.
   uint32_t fixedCount = 0;         ///< As many layers as this, whatever they span; 0: as many as `travel` asks for.
   uint32_t mostLayers = shared::kMaxSceneLayers;
 };

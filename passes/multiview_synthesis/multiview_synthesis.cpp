@@ -55,6 +55,8 @@ ViewPlan viewPlan(const DofInputs& inputs, const Parameters& parameters, const s
   const double reach = std::max(static_cast<double>(view.reach), 1e-3);
   plan.layers = sceneLayers(occupied, {.pixelsPerVergence = inputs.lens.cocScale * reach,
                                        .travel = parameters.delta,
+                                       // A layer keeps one transparent surface: there each border may save one.
+                                       .smallestGap = scene.hasTransparency ? 0.0 : 0.25 * parameters.delta,
                                        .fixedCount = static_cast<uint32_t>(parameters.layers),
                                        .mostLayers = mostLayers(scene, parameters)});
   plan.view = std::move(view);
@@ -150,14 +152,23 @@ DofOutputs declare(rendergraph::Graph& graph, const DofInputs& inputs, const Par
                                 {.format = kViewColorFormat, .width = width, .height = height});
   std::optional<SceneShading> shading;
   if (parameters.viewDependent && inputs.scene->importShading) shading = inputs.scene->importShading(graph);
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    const std::string prefix = kPrefix + (views.size() > 1 ? ".view" + std::to_string(i) : std::string());
-    const ViewPlan plan = viewPlan(inputs, parameters, shading, std::move(views[i]), prefix);
-    const Tables tables = declareUpload(graph, plan);
+  std::vector<ViewPlan> plans;
+  uint32_t rayCount = 0;
+  for (LensView& view : views) {
+    const auto number = static_cast<uint32_t>(plans.size());
+    const std::string prefix = kPrefix + (views.size() > 1 ? ".view" + std::to_string(number) : std::string());
+    plans.push_back(viewPlan(inputs, parameters, shading, std::move(view), prefix));
+    plans.back().number = number;
+    plans.back().rayBase = rayCount;
+    rayCount += static_cast<uint32_t>(plans.back().view.rays.size());
+  }
+  const Tables tables = declareUpload(graph, plans);
+  for (const ViewPlan& plan : plans) {
     LayerImages images = declareDecompose(graph, plan, tables, out.statistics);
     const auto visits = parameters.culling ? declareCulling(graph, plan, tables, images) : rendergraph::Buffer{};
     declareMips(graph, plan, tables, images);
-    out.color = declareTrace(graph, plan, tables, images, visits, out.color, i == 0, i + 1 == views.size());
+    out.color =
+        declareTrace(graph, plan, tables, images, visits, out.color, plan.number == 0, plan.number + 1 == plans.size());
   }
   return out;
 }

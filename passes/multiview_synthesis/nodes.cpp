@@ -59,9 +59,11 @@ shared::ViewConstants layerView(const ViewPlan& plan) {
     return static_cast<float>(border) + 0.5f * static_cast<float>(inner) - 0.5f * static_cast<float>(outer);
   };
   const auto& [x, y] = plan.view.pixelOffset;
-  return viewFromLens(wider, plan.view.lens,
-                      {x + shift(plan.border.x, plan.inputs.extent.width, plan.size.width),
-                       y + shift(plan.border.y, plan.inputs.extent.height, plan.size.height)});
+  auto view = viewFromLens(wider, plan.view.lens,
+                           {x + shift(plan.border.x, plan.inputs.extent.width, plan.size.width),
+                            y + shift(plan.border.y, plan.inputs.extent.height, plan.size.height)});
+  view.lensPoint.w = static_cast<float>(plan.number);
+  return view;
 }
 
 /// Draws the surfaces of an emit into a range of slices of the colour attachments and of depth.
@@ -90,6 +92,7 @@ void declareRedistribute(Graph& graph, const ViewPlan& plan, const Tables& table
   images.occupied = pass.write(images.occupied, Usage::storage);
   statistics = pass.modify(statistics, Usage::storage);
   const shared::RedistributePush push{.size = signedExtent(plan.size),
+                                      .table = plan.number,
                                       .sliceCount = plan.sliceCount(),
                                       .layerCount = plan.layerCount(),
                                       .vergenceScale = plan.inputs.lens.vergenceScale,
@@ -138,26 +141,24 @@ VkExtent2D ViewPlan::cells() const {
   return {size.width / shared::kMultiviewCell, size.height / shared::kMultiviewCell};
 }
 
-Tables declareUpload(Graph& graph, const ViewPlan& plan) {
-  const shared::SceneLayerHeader header{.layerCount = plan.layerCount(),
-                                        .splitTriangles = plan.parameters.splitTriangles ? 1u : 0u,
-                                        .padding0 = 0,
-                                        .padding1 = 0};
-  std::vector<std::byte> table(sizeof header + std::as_bytes(std::span(plan.layers)).size());
-  std::memcpy(table.data(), &header, sizeof header);
-  std::memcpy(table.data() + sizeof header, plan.layers.data(), table.size() - sizeof header);
-  const auto rays = std::as_bytes(std::span(plan.view.rays));
-
+Tables declareUpload(Graph& graph, std::span<const ViewPlan> plans) {
+  std::vector<shared::SceneLayerTable> layers(plans.size());
+  std::vector<shared::LensRay> rays;
+  for (std::size_t i = 0; i < plans.size(); ++i) {
+    layers[i].layerCount = plans[i].layerCount();
+    layers[i].splitTriangles = plans[i].parameters.splitTriangles ? 1u : 0u;
+    std::ranges::copy(plans[i].layers, layers[i].layers);
+    rays.insert(rays.end(), plans[i].view.rays.begin(), plans[i].view.rays.end());
+  }
   Tables tables;
-  tables.layers = graph.createBuffer(plan.prefix + ".layers", {.size = table.size()});
-  tables.rays = graph.createBuffer(plan.prefix + ".rays", {.size = rays.size()});
-  auto pass = graph.addPass(plan.prefix + ".upload", PassKind::transfer);
+  tables.layers = graph.createBuffer("multiview_synthesis.layers", {.size = std::as_bytes(std::span(layers)).size()});
+  tables.rays = graph.createBuffer("multiview_synthesis.rays", {.size = std::as_bytes(std::span(rays)).size()});
+  auto pass = graph.addPass("multiview_synthesis.upload", PassKind::transfer);
   tables.layers = pass.write(tables.layers, Usage::transferDestination);
   tables.rays = pass.write(tables.rays, Usage::transferDestination);
-  pass.record([tables, table = std::move(table),
-               rays = std::vector<std::byte>(rays.begin(), rays.end())](PassContext& context) {
-    context.updateBuffer(tables.layers, table);
-    context.updateBuffer(tables.rays, rays);
+  pass.record([tables, layers = std::move(layers), rays = std::move(rays)](PassContext& context) {
+    context.updateBuffer(tables.layers, std::as_bytes(std::span(layers)));
+    context.updateBuffer(tables.rays, std::as_bytes(std::span(rays)));
   });
   return tables;
 }
@@ -213,6 +214,7 @@ Buffer declareCulling(Graph& graph, const ViewPlan& plan, const Tables& tables, 
   pass.read(tables.layers, Usage::storage);
   visits = pass.write(visits, Usage::storage);
   const shared::VisitPush push{.cells = signedExtent(cells),
+                               .table = plan.number,
                                .layerCount = plan.layerCount(),
                                .highestLevel = highest,
                                .cocScale = plan.inputs.lens.cocScale,
@@ -240,6 +242,7 @@ void declareMipsOf(Graph& graph, const ViewPlan& plan, const Tables& tables, con
     image = pass.write(image, Usage::storage, rendergraph::mip(level));
     const shared::MipPush push{.size = signedExtent(extent),
                                .level = level,
+                               .table = plan.number,
                                .layerCount = plan.layerCount(),
                                .cocScale = plan.inputs.lens.cocScale,
                                .focusVergence = plan.inputs.lens.focusVergence,
@@ -312,10 +315,12 @@ Image declareTrace(Graph& graph, const ViewPlan& plan, const Tables& tables, con
                                  .extent = {plan.inputs.extent.width, plan.inputs.extent.height},
                                  .viewPoint = plan.view.lens,
                                  .background = {background[0], background[1], background[2]},
+                                 .table = plan.number,
                                  .layerCount = plan.layerCount(),
+                                 .rayBase = plan.rayBase,
+                                 .rayTotal = static_cast<uint32_t>(plan.view.rays.size()),
                                  .firstRay = first,
                                  .rayCount = std::min(most, total - first),
-                                 .rayTotal = static_cast<uint32_t>(plan.view.rays.size()),
                                  .flags = (starts ? shared::kTraceFirst : 0u) | (ends ? shared::kTraceLast : 0u),
                                  .cocScale = lens.cocScale,
                                  .focusVergence = lens.focusVergence,

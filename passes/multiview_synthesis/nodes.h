@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,8 @@ struct ViewPlan {
   DofInputs inputs;
   Parameters parameters;
   LensView view;
+  uint32_t number = 0;   ///< Of the view, and so of its layer table.
+  uint32_t rayBase = 0;  ///< Where its rays begin in the table of all views' rays.
   std::vector<shared::SceneLayer> layers;
   VkExtent2D size;            ///< px, of the layers; a multiple of the cells and of the coarsest mip level's texels.
   shared::ivec2 border;       ///< px of the layers to the left of and above the picture.
@@ -36,7 +39,7 @@ struct ViewPlan {
   VkExtent2D cells() const;
 };
 
-/// The tables that the shaders read.
+/// The tables that the shaders read, of all views.
 struct Tables {
   rendergraph::Buffer layers, rays;
 };
@@ -50,7 +53,7 @@ struct LayerImages {
   rendergraph::Buffer occupied;  ///< N-buffer: per level and cell a bit for each slice that holds anything.
 };
 
-Tables declareUpload(rendergraph::Graph& graph, const ViewPlan& plan);
+Tables declareUpload(rendergraph::Graph& graph, std::span<const ViewPlan> plans);
 LayerImages declareDecompose(rendergraph::Graph& graph, const ViewPlan& plan, const Tables& tables,
                              rendergraph::Buffer& statistics);
 /// Which slices the rays of each cell may hit.

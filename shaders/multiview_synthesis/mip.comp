@@ -8,10 +8,7 @@
 layout(local_size_x = kMultiviewTile, local_size_y = kMultiviewTile) in;
 layout(set = 0, binding = 0, rgba16f) uniform readonly image2DArray finer;
 layout(set = 0, binding = 1, rgba16f) uniform writeonly image2DArray coarser;
-layout(std430, set = 0, binding = 2) readonly buffer Table {
-  SceneLayerHeader header;
-  SceneLayer layers[];
-};
+layout(std430, set = 0, binding = 2) readonly buffer Tables { SceneLayerTable tables[]; };
 layout(push_constant) uniform Push { MipPush push; };
 
 vec4 roundedToHalf(vec4 value) {
@@ -22,7 +19,7 @@ void main() {
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   const int slice = int(gl_GlobalInvocationID.z);
   if (any(greaterThanEqual(pixel, push.size))) return;
-  const SceneLayer layer = layers[slice % int(push.layerCount)];
+  const SceneLayer layer = tables[push.table].layers[slice % int(push.layerCount)];
   const float widest = push.cocScale * max(abs(push.focusVergence - layer.nearest), abs(push.focusVergence - layer.farthest));
   // Level L is read where the cone is wider than 2^(L-1) px.
   if (push.coneDiameter * widest < exp2(float(push.level) - 1.0) * 0.999) return;

@@ -12,10 +12,7 @@ layout(constant_id = 0) const bool moves = false;
 
 layout(local_size_x = kMultiviewTile, local_size_y = kMultiviewTile) in;
 layout(set = 0, binding = 0) uniform sampler2DArray depth;
-layout(std430, set = 0, binding = 1) readonly buffer Table {
-  SceneLayerHeader header;
-  SceneLayer layers[];
-};
+layout(std430, set = 0, binding = 1) readonly buffer Tables { SceneLayerTable tables[]; };
 layout(set = 0, binding = 2, rgba16f) uniform image2DArray color;
 layout(set = 0, binding = 3, r32f) uniform writeonly image2DArray height;
 layout(std430, set = 0, binding = 4) writeonly buffer Occupied { uvec2 occupied[]; };
@@ -67,7 +64,7 @@ uvec2 moveBetween(ivec2 pixel, uint firstSlice) {
     float nearest = 0.0;
     uint source = l;
     for (uint i = l > 0u ? l - 1u : 0u; i < push.layerCount; ++i) {
-      if (found[i] > nearest && contains(layers[l], found[i])) {
+      if (found[i] > nearest && contains(tables[push.table].layers[l], found[i])) {
         nearest = found[i];
         source = i;
       }

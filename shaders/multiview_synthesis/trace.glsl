@@ -17,10 +17,7 @@ layout(constant_id = 6) const bool mayLeave = true;
 layout(local_size_x = kMultiviewTile, local_size_y = kMultiviewTile) in;
 layout(set = 0, binding = 0) uniform sampler2DArray color;
 layout(set = 0, binding = 1, r32f) uniform readonly image2DArray height;
-layout(std430, set = 0, binding = 2) readonly buffer Table {
-  SceneLayerHeader header;
-  SceneLayer layers[];
-};
+layout(std430, set = 0, binding = 2) readonly buffer Tables { SceneLayerTable tables[]; };
 layout(std430, set = 0, binding = 3) readonly buffer Rays { LensRay rays[]; };
 layout(std430, set = 0, binding = 4) readonly buffer Visits { uvec2 visits[]; };
 layout(set = 0, binding = 5, rgba32f) uniform image2D picture;
@@ -121,10 +118,10 @@ uvec2 layersOf(uvec2 slices) {
 bool traceRay(Ray ray, uvec2 slices, out Gathered gathered) {
   gathered = Gathered(vec3(0.0), 1.0);
   const vec2 inside = mayLeave ? insideRange(ray) : vec2(0.0, 1e30);
-  if (layers[0].nearVergence > inside.y) return true;
+  if (tables[push.table].layers[0].nearVergence > inside.y) return true;
   uvec2 remaining = layersOf(slices);
   for (uint l = takeFirst(remaining); l != kNoLayer; l = takeFirst(remaining)) {
-    const float near = layers[l].nearVergence, far = layers[l].farVergence;
+    const float near = tables[push.table].layers[l].nearVergence, far = tables[push.table].layers[l].farVergence;
     if (far < inside.x) return true;
     const float opaqueHit = has(slices, l) ? searchLayer(l, near, far, ray) : kMiss;
     float clearHit = kMiss;
@@ -154,7 +151,7 @@ vec4 noiseAt(uvec2 pixel) {
 
 // The lens point of ray i, seen from the view's.
 vec2 lensOffset(uint i, uint start, vec4 noise, out LensRay chosen) {
-  chosen = rays[jitter == kJitterHalton ? (start + i) % push.rayTotal : i];
+  chosen = rays[push.rayBase + (jitter == kJitterHalton ? (start + i) % push.rayTotal : i)];
   vec2 lens = chosen.lens;
   // 16 pairs of the four numbers, dealt out to the rays.
   if (jitter == kJitterNoise) lens += push.noiseReach * vec2(noise[i & 3u], noise[(i >> 2u) & 3u]);

@@ -7,10 +7,7 @@
 
 layout(local_size_x = kMultiviewTile, local_size_y = kMultiviewTile) in;
 layout(std430, set = 0, binding = 0) readonly buffer Occupied { uvec2 occupied[]; };
-layout(std430, set = 0, binding = 1) readonly buffer Table {
-  SceneLayerHeader header;
-  SceneLayer layers[];
-};
+layout(std430, set = 0, binding = 1) readonly buffer Tables { SceneLayerTable tables[]; };
 layout(std430, set = 0, binding = 2) writeonly buffer Visits { uvec2 visits[]; };
 layout(push_constant) uniform Push { VisitPush push; };
 
@@ -42,8 +39,8 @@ void main() {
   if (any(greaterThanEqual(cell, push.cells))) return;
   uvec2 mask = uvec2(0u);
   for (uint l = 0u; l < push.layerCount; ++l) {
-    const float widest = max(abs(push.focusVergence - layers[l].nearVergence),
-                             abs(push.focusVergence - layers[l].farVergence));
+    const float widest = max(abs(push.focusVergence - tables[push.table].layers[l].nearVergence),
+                             abs(push.focusVergence - tables[push.table].layers[l].farVergence));
     // A pixel more: rays start at pixel centres and look up the texel they are in.
     const float radius = min(push.cocScale * widest * push.rayReach + 1.0, 1e6);
     const int reach = int(ceil(radius / float(kMultiviewCell)));

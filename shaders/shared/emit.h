@@ -22,7 +22,7 @@ enum class SceneEmit : uint32_t {
   /// Opaque and alpha-masked surfaces into layers of view depth (Lee, Eisemann, Seidel 2009, §4.2). The rendering is
   /// layered; a geometry stage routes triangles (shaders/scene/layers.geom). Colour attachment 0: linear radiance within
   /// half floats' range, alpha 1. Depth attachment: tested (greater) and written, layer by layer. Bindings of set 2:
-  ///   0  storage buffer SceneLayerTable
+  ///   0  storage buffer, an array of SceneLayerTable
   opaqueLayers = 2,
   /// The same for alpha-blended surfaces, of which each layer keeps the nearest: premultiplied radiance, alpha; fragments
   /// with alpha 0 are discarded.
@@ -42,12 +42,13 @@ struct SceneLayer {
   float nearest, farthest;
 };
 
-// std430: two words, padding to 16 bytes, then the layers.
-struct SceneLayerHeader {
+// The layers that one draw uses. Its table is number ViewConstants::lensPoint.w of an array.
+struct SceneLayerTable {
   uint layerCount;
   // 1: a triangle goes into every layer that it crosses, clipped to it. 0: whole, into the layer of its farthest vertex.
   uint splitTriangles;
   uint padding0, padding1;
+  SceneLayer layers[kMaxSceneLayers];
 };
 
 // A fragment of an alpha-blended surface. 24 bytes, scalars only, so that GLSL and C++ agree on the layout.

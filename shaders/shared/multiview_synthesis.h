@@ -19,8 +19,11 @@ struct LensRay {
   float padding;
 };
 
+// `table` is everywhere the number of the view's SceneLayerTable.
+
 struct RedistributePush {
   ivec2 size;  // px, of the layers
+  uint table;
   uint sliceCount;
   uint layerCount;
   float vergenceScale;   // V = scale · z + offset
@@ -30,6 +33,7 @@ struct RedistributePush {
 struct MipPush {
   ivec2 size;       // px, of the level to write
   uint level;       // ≥ 1
+  uint table;
   uint layerCount;
   float cocScale;       // K, px·m
   float focusVergence;  // 1/m
@@ -43,6 +47,7 @@ struct DilatePush {
 
 struct VisitPush {
   ivec2 cells;
+  uint table;
   uint layerCount;
   uint highestLevel;
   float cocScale;
@@ -69,8 +74,10 @@ struct TracePush {
   uvec2 extent;  // px, of the picture
   vec2 viewPoint;  // lens point that the layers are seen from
   vec3 background;
-  uint layerCount;
-  uint firstRay, rayCount, rayTotal;
+  uint table, layerCount;
+  uint rayBase;   // where the view's rays begin
+  uint rayTotal;  // how many it has
+  uint firstRay, rayCount;  // that a pixel traces now
   uint flags;
   float cocScale, focusVergence;
   float vergenceScale;  // V = scale · z

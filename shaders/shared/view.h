@@ -13,7 +13,8 @@ SHARED_NAMESPACE_BEGIN
 // What a draw of the scene needs to know of its view. Made by viewFromLensSample() in C++, read by vertex shaders.
 struct ViewConstants {
   mat4 clipFromView;   // infinite reversed depth: z_buffer = near · V; y down
-  vec4 lensPoint;      // xyz: eye position on the lens in view space, m (for view-dependent shading); w unused
+  vec4 lensPoint;      // xyz: eye position on the lens in view space, m (for view-dependent shading);
+                       // w: number of the SceneLayerTable (shaders/shared/emit.h) that a layered draw uses
 };
 
 SHARED_NAMESPACE_END
