@@ -85,8 +85,7 @@ std::vector<shared::SceneLayer> sceneLayers(std::span<const VergenceInterval> oc
     for (uint32_t i = 0; i < count; ++i) {
       const double near = interval.nearVergence - i * step;
       const double far = i + 1 == count ? interval.farVergence : interval.nearVergence - (i + 1) * step;
-      layers.push_back({.nearVergence = static_cast<float>(near),
-                        .farVergence = static_cast<float>(far),
+      layers.push_back({.borders = {static_cast<float>(near), static_cast<float>(far)},
                         .nearest = static_cast<float>(near + overlap),
                         .farthest = static_cast<float>(std::max(far - overlap, 0.0))});
     }

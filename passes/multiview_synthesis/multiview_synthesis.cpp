@@ -93,8 +93,8 @@ std::span<const Field<Parameters>> fields() {
       number<&Parameters::iterations>("iterations", "", 1, 8, "Looks of the false position at a layer's surface."),
       choice<&Parameters::search, kSearchNames>(
           "search",
-          "How a ray finds a layer's surface: falsePosition (the paper), which widens thin objects by up to delta, or "
-          "scan, a look at every pixel on its way."),
+          "How a ray finds a layer's surface: falsePosition (the paper), which widens thin objects by up to delta; "
+          "falsePositionInDepth, the same with depths, to compare; or scan, a look at every pixel on its way."),
       number<&Parameters::coneWidth>("coneWidth", "", 0.0, 8.0,
                                      "Diameter of the cones around rays, 1 being the paper's; 0 traces lines. Wider "
                                      "hides noise and softens what is hidden behind edges."),

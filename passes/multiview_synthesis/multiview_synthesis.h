@@ -15,9 +15,10 @@ namespace passes::multiview_synthesis {
 /// How a ray finds the surface of a layer.
 enum class Search : uint8_t {
   falsePosition,  ///< Secant steps, then halving (Lee 2009, §4.3): `iterations` looks at the surface, one more at most.
-  scan,           ///< A look at every pixel on the ray's way, and one where the surface should be.
+  falsePositionInDepth,  ///< The same in depth instead of vergence, as the paper has it; to compare.
+  scan,                  ///< A look at every pixel on the ray's way, and one where the surface should be.
 };
-inline constexpr std::array<std::string_view, 2> kSearchNames = {"falsePosition", "scan"};
+inline constexpr std::array<std::string_view, 3> kSearchNames = {"falsePosition", "falsePositionInDepth", "scan"};
 
 struct Parameters {
   int lensSamples = 32;  ///< 1…4096 rays a pixel.

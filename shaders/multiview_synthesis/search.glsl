@@ -23,6 +23,29 @@ float falsePosition(uint slice, float near, float far, Ray ray) {
   return heightAt(slice, at(ray, far)) >= far ? far : kMiss;
 }
 
+// The same with depths in place of vergences, as the paper has it. A ray is no straight line there, so that a step which
+// is exact on a plane in vergence is not.
+float falsePositionInDepth(uint slice, float near, float far, Ray ray) {
+  const float farthest = 1.0 / max(far, 1e-6);
+  float front = 1.0 / near, back = farthest;
+  float frontGap = back - front, backGap = front - back;
+  bool isFound = false;
+  for (uint i = 0u; i < iterations; ++i) {
+    const float guess = isFound ? 0.5 * (front + back) : front + (back - front) * (frontGap / (frontGap - backGap));
+    const float surface = heightAt(slice, at(ray, 1.0 / guess));
+    const float depth = surface > 0.0 ? 1.0 / surface : 2.0 * farthest;
+    if (depth <= guess) {
+      isFound = true;
+      back = guess;
+    } else {
+      front = guess;
+      frontGap = min(depth, farthest) - guess;
+    }
+  }
+  if (isFound) return 1.0 / back;
+  return heightAt(slice, at(ray, far)) >= far ? far : kMiss;
+}
+
 // A look at every pixel on the way. The surface has no thickness: a ray that is behind it where it comes over it has
 // passed the object's edge, and is not stopped. A find counts if the surface is also there where its height says.
 float scan(uint slice, float near, float far, Ray ray) {
@@ -48,5 +71,7 @@ float scan(uint slice, float near, float far, Ray ray) {
 }
 
 float searchLayer(uint slice, float near, float far, Ray ray) {
-  return searchKind == kSearchScan ? scan(slice, near, far, ray) : falsePosition(slice, near, far, ray);
+  if (searchKind == kSearchScan) return scan(slice, near, far, ray);
+  if (searchKind == kSearchFalsePositionInDepth) return falsePositionInDepth(slice, near, far, ray);
+  return falsePosition(slice, near, far, ray);
 }

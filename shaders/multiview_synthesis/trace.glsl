@@ -118,10 +118,11 @@ uvec2 layersOf(uvec2 slices) {
 bool traceRay(Ray ray, uvec2 slices, out Gathered gathered) {
   gathered = Gathered(vec3(0.0), 1.0);
   const vec2 inside = mayLeave ? insideRange(ray) : vec2(0.0, 1e30);
-  if (tables[push.table].layers[0].nearVergence > inside.y) return true;
+  if (tables[push.table].layers[0].borders.x > inside.y) return true;
   uvec2 remaining = layersOf(slices);
   for (uint l = takeFirst(remaining); l != kNoLayer; l = takeFirst(remaining)) {
-    const float near = tables[push.table].layers[l].nearVergence, far = tables[push.table].layers[l].farVergence;
+    const vec2 borders = tables[push.table].layers[l].borders;
+    const float near = borders.x, far = borders.y;
     if (far < inside.x) return true;
     const float opaqueHit = has(slices, l) ? searchLayer(l, near, far, ray) : kMiss;
     float clearHit = kMiss;
@@ -151,7 +152,12 @@ vec4 noiseAt(uvec2 pixel) {
 
 // The lens point of ray i, seen from the view's.
 vec2 lensOffset(uint i, uint start, vec4 noise, out LensRay chosen) {
-  chosen = rays[push.rayBase + (jitter == kJitterHalton ? (start + i) % push.rayTotal : i)];
+  uint index = i;
+  if (jitter == kJitterHalton) {  // The run goes around the end; both terms are below the total.
+    index += start;
+    if (index >= push.rayTotal) index -= push.rayTotal;
+  }
+  chosen = rays[push.rayBase + index];
   vec2 lens = chosen.lens;
   // 16 pairs of the four numbers, dealt out to the rays.
   if (jitter == kJitterNoise) lens += push.noiseReach * vec2(noise[i & 3u], noise[(i >> 2u) & 3u]);
@@ -178,7 +184,7 @@ void main() {
   const vec2 fromCentre = vec2(pixel) + 0.5 - 0.5 * vec2(push.extent);
   const vec2 place = fromCentre / (0.5 * length(vec2(push.extent)));
   const vec4 noise = noiseAt(pixel);
-  const uint start = uint((0.5 * noise.x + 0.5) * float(push.rayTotal));
+  const uint start = min(uint((0.5 * noise.x + 0.5) * float(push.rayTotal)), push.rayTotal - 1u);
 
   vec4 sum = (push.flags & kTraceFirst) != 0u ? vec4(0.0) : imageLoad(picture, ivec2(pixel));
   Ray ray;

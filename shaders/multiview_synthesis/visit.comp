@@ -39,8 +39,8 @@ void main() {
   if (any(greaterThanEqual(cell, push.cells))) return;
   uvec2 mask = uvec2(0u);
   for (uint l = 0u; l < push.layerCount; ++l) {
-    const float widest = max(abs(push.focusVergence - tables[push.table].layers[l].nearVergence),
-                             abs(push.focusVergence - tables[push.table].layers[l].farVergence));
+    const float widest = max(abs(push.focusVergence - tables[push.table].layers[l].borders.x),
+                             abs(push.focusVergence - tables[push.table].layers[l].borders.y));
     // A pixel more: rays start at pixel centres and look up the texel they are in.
     const float radius = min(push.cocScale * widest * push.rayReach + 1.0, 1e6);
     const int reach = int(ceil(radius / float(kMultiviewCell)));

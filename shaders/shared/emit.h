@@ -38,7 +38,7 @@ SHARED_CONST uint kMaxSceneLayers = 64u;
 // One layer of view depth, in vergences (1/m), near side first. Its images hold what lies between `nearest` and
 // `farthest`, which overlap the neighbours a little; rays cross it from `near` to `far`.
 struct SceneLayer {
-  float nearVergence, farVergence;
+  vec2 borders;  // near, far
   float nearest, farthest;
 };
 

@@ -65,7 +65,8 @@ SHARED_CONST uint kJitterNoise = 1u;
 SHARED_CONST uint kJitterHalton = 2u;
 
 SHARED_CONST uint kSearchFalsePosition = 0u;
-SHARED_CONST uint kSearchScan = 1u;
+SHARED_CONST uint kSearchFalsePositionInDepth = 1u;
+SHARED_CONST uint kSearchScan = 2u;
 
 struct TracePush {
   ApertureShape aperture;

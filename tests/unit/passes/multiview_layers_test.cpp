@@ -23,20 +23,20 @@ TEST(SceneLayers, AreEvenInVergence) {
   const auto layers = layersOf({{0.25f, 2.25f}}, {.pixelsPerVergence = 20.0, .travel = 4.0});
   ASSERT_EQ(layers.size(), 11u);  // ten, and a little for rounding
   for (std::size_t i = 0; i < layers.size(); ++i) {
-    EXPECT_NEAR(layers[i].nearVergence - layers[i].farVergence, 2.0 / 11.0, 2e-3);
-    EXPECT_LE((layers[i].nearVergence - layers[i].farVergence) * 20.0, 4.0);
-    EXPECT_FLOAT_EQ(layers[i].nearVergence, i > 0 ? layers[i - 1].farVergence : layers[i].nearVergence);
+    EXPECT_NEAR(layers[i].borders.x - layers[i].borders.y, 2.0 / 11.0, 2e-3);
+    EXPECT_LE((layers[i].borders.x - layers[i].borders.y) * 20.0, 4.0);
+    EXPECT_FLOAT_EQ(layers[i].borders.x, i > 0 ? layers[i - 1].borders.y : layers[i].borders.x);
   }
-  EXPECT_GE(layers.front().nearVergence, 2.25f);
-  EXPECT_LE(layers.back().farVergence, 0.25f);
+  EXPECT_GE(layers.front().borders.x, 2.25f);
+  EXPECT_LE(layers.back().borders.y, 0.25f);
 }
 
 TEST(SceneLayers, OverlapByATenth) {
   const auto layers = layersOf({{0.0f, 1.0f}}, {.pixelsPerVergence = 30.0, .travel = 3.0});
   for (const SceneLayer& layer : layers) {
-    const float thickness = layer.nearVergence - layer.farVergence;
-    EXPECT_NEAR(layer.nearest - layer.nearVergence, 0.1f * thickness, 1e-6f);
-    EXPECT_NEAR(layer.farVergence - layer.farthest, layer.farthest > 0.0f ? 0.1f * thickness : layer.farVergence,
+    const float thickness = layer.borders.x - layer.borders.y;
+    EXPECT_NEAR(layer.nearest - layer.borders.x, 0.1f * thickness, 1e-6f);
+    EXPECT_NEAR(layer.borders.y - layer.farthest, layer.farthest > 0.0f ? 0.1f * thickness : layer.borders.y,
                 1e-6f);
     EXPECT_GE(layer.farthest, 0.0f);
   }
@@ -69,15 +69,15 @@ TEST(SceneLayers, NeverMoreThanAllowedAndEverythingStaysCovered) {
     ASSERT_LE(layers.size(), spacing.mostLayers);
     ASSERT_LE(layers.size(), spacing.fixedCount > 0 ? spacing.fixedCount : spacing.mostLayers);
     for (std::size_t i = 0; i < layers.size(); ++i) {
-      ASSERT_GT(layers[i].nearVergence, layers[i].farVergence);
+      ASSERT_GT(layers[i].borders.x, layers[i].borders.y);
       ASSERT_GE(layers[i].farthest, 0.0f);
-      ASSERT_LE(layers[i].nearVergence, i > 0 ? layers[i - 1].farVergence : layers[i].nearVergence);
+      ASSERT_LE(layers[i].borders.x, i > 0 ? layers[i - 1].borders.y : layers[i].borders.x);
     }
     for (const auto& interval : occupied) {
       for (const float t : {0.0f, 0.31f, 1.0f}) {
         const float at = interval.farthest + t * (interval.nearest - interval.farthest);
         ASSERT_TRUE(std::ranges::any_of(
-            layers, [&](const SceneLayer& l) { return at <= l.nearVergence && at >= l.farVergence; }))
+            layers, [&](const SceneLayer& l) { return at <= l.borders.x && at >= l.borders.y; }))
             << "round " << round << " vergence " << at;
       }
     }
@@ -97,8 +97,8 @@ TEST(SceneLayers, AnEmptySceneHasOne) {
 TEST(SceneLayers, ASurfaceAtOneDepthHasRoom) {
   const auto layers = layersOf({{0.5f, 0.5f}}, {.pixelsPerVergence = 20.0, .travel = 3.0});
   ASSERT_EQ(layers.size(), 1u);
-  EXPECT_GT(layers[0].nearVergence, 0.5f);
-  EXPECT_LT(layers[0].farVergence, 0.5f);
+  EXPECT_GT(layers[0].borders.x, 0.5f);
+  EXPECT_LT(layers[0].borders.y, 0.5f);
 }
 
 shared::ApertureShape disc() {
