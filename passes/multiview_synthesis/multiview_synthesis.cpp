@@ -53,9 +53,11 @@ ViewPlan viewPlan(const DofInputs& inputs, const Parameters& parameters, const s
   if (occupied.empty() && whole.nearest > 0.0f) occupied = {&whole, 1};
   // All rays of a view may be one: through its own lens point, they do not travel at all.
   const double reach = std::max(static_cast<double>(view.reach), 1e-3);
-  plan.layers = sceneLayers(occupied, {.pixelsPerVergence = inputs.lens.cocScale * reach,
+  // A layer keeps one transparent surface. So where there are any, each border may save one, and views whose rays travel
+  // less do not make do with fewer layers.
+  const double spacingReach = scene.hasTransparency ? std::max(reach, 1.0) : reach;
+  plan.layers = sceneLayers(occupied, {.pixelsPerVergence = inputs.lens.cocScale * spacingReach,
                                        .travel = parameters.delta,
-                                       // A layer keeps one transparent surface: there each border may save one.
                                        .smallestGap = scene.hasTransparency ? 0.0 : 0.25 * parameters.delta,
                                        .fixedCount = static_cast<uint32_t>(parameters.layers),
                                        .mostLayers = mostLayers(scene, parameters)});

@@ -29,8 +29,9 @@ struct Row {
 };
 
 // dB reached on lavapipe (64 pixel samples; 256 lens samples), less a half. The house asks for 35 and 40.
-constexpr Row kRows[] = {{"railings", 58.0, 50.3}, {"crossing", 54.2, 52.9},   {"foliage", 49.3, 48.0},
-                         {"glass", 66.1, 62.8},    {"models_dev", 54.5, 51.2}, {"sharp", 55.5, 61.4}};
+constexpr Row kRows[] = {{"railings", 58.0, 50.3, 39.0, 42.0},   {"crossing", 54.2, 52.9, 33.3, 39.3},
+                         {"foliage", 49.3, 48.0, 30.7, 37.3},    {"glass", 66.1, 62.8, 38.9, 45.3},
+                         {"models_dev", 54.5, 51.2, 38.4, 41.6}, {"sharp", 55.5, 61.4, 31.0, 47.8}};
 
 /// Lens samples of the accumulation: 256, to be quick; LENSGRAPH_SHOT_SAMPLES=1024 makes the table of docs/results.
 int64_t lensSamples() {
