@@ -5,15 +5,13 @@
 #include "shaders/shared/emit.h"
 #include "shaders/shared/multiview_synthesis.h"
 
+#include "../scene/half_float.glsl"
+
 layout(local_size_x = kMultiviewTile, local_size_y = kMultiviewTile) in;
 layout(set = 0, binding = 0, rgba16f) uniform readonly image2DArray finer;
 layout(set = 0, binding = 1, rgba16f) uniform writeonly image2DArray coarser;
 layout(std430, set = 0, binding = 2) readonly buffer Tables { SceneLayerTable tables[]; };
 layout(push_constant) uniform Push { MipPush push; };
-
-vec4 roundedToHalf(vec4 value) {
-  return vec4(unpackHalf2x16(packHalf2x16(value.xy)), unpackHalf2x16(packHalf2x16(value.zw)));
-}
 
 void main() {
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);

@@ -8,6 +8,8 @@
 #include "shaders/shared/multiview_synthesis.h"
 #include "shaders/shared/statistics.h"
 
+#include "slice_mask.glsl"
+
 layout(constant_id = 0) const bool moves = false;
 
 layout(local_size_x = kMultiviewTile, local_size_y = kMultiviewTile) in;
@@ -37,8 +39,6 @@ vec4 finiteColor(ivec2 pixel, uint slice) {
   imageStore(color, ivec3(pixel, slice), black);
   return black;
 }
-
-uvec2 bitOf(uint slice) { return slice < 32u ? uvec2(1u << slice, 0u) : uvec2(0u, 1u << (slice - 32u)); }
 
 uvec2 keepInPlace(ivec2 pixel) {
   uvec2 mask = uvec2(0u);

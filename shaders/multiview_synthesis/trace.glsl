@@ -26,7 +26,6 @@ layout(push_constant) uniform Push { TracePush push; };
 // Weight of what is only there so that no pixel is empty; as in the accumulation.
 const float kFaintWeight = 1e-12;
 const float kMiss = -1.0;
-const uint kNoLayer = 64u;
 
 struct Ray {
   vec2 focus;  // p_f: where it crosses the focal plane, px of the layers
@@ -42,6 +41,7 @@ float heightAt(uint slice, vec2 place) {
 }
 
 #include "search.glsl"
+#include "slice_mask.glsl"
 
 float coneDiameterAt(float vergence) {
   return push.coneDiameter * push.cocScale * abs(push.focusVergence - vergence);
@@ -85,27 +85,6 @@ vec2 insideRange(Ray ray) {
   return push.focusVergence + vec2(max(low.x, low.y), min(high.x, high.y));
 }
 
-uint takeFirst(inout uvec2 layerMask) {
-  if (layerMask.x != 0u) {
-    const int bit = findLSB(layerMask.x);
-    layerMask.x &= layerMask.x - 1u;
-    return uint(bit);
-  }
-  if (layerMask.y != 0u) {
-    const int bit = findLSB(layerMask.y);
-    layerMask.y &= layerMask.y - 1u;
-    return 32u + uint(bit);
-  }
-  return kNoLayer;
-}
-
-bool has(uvec2 mask, uint slice) { return ((slice < 32u ? mask.x >> slice : mask.y >> (slice - 32u)) & 1u) != 0u; }
-
-// Bits 0 … count - 1.
-uvec2 firstBits(uint count) {
-  return uvec2(count >= 32u ? ~0u : (1u << count) - 1u, count <= 32u ? 0u : (count >= 64u ? ~0u : (1u << (count - 32u)) - 1u));
-}
-
 // The mask of layers in which either kind of slice is to be visited. Transparent ones follow the opaque, at most 32 each.
 uvec2 layersOf(uvec2 slices) {
   if (!hasTransparency) return slices;
@@ -120,7 +99,7 @@ bool traceRay(Ray ray, uvec2 slices, out Gathered gathered) {
   const vec2 inside = mayLeave ? insideRange(ray) : vec2(0.0, 1e30);
   if (tables[push.table].layers[0].borders.x > inside.y) return true;
   uvec2 remaining = layersOf(slices);
-  for (uint l = takeFirst(remaining); l != kNoLayer; l = takeFirst(remaining)) {
+  for (uint l = takeFirst(remaining); l != kNoSlice; l = takeFirst(remaining)) {
     const vec2 borders = tables[push.table].layers[l].borders;
     const float near = borders.x, far = borders.y;
     if (far < inside.x) return true;

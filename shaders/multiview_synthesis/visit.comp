@@ -5,6 +5,8 @@
 #include "shaders/shared/emit.h"
 #include "shaders/shared/multiview_synthesis.h"
 
+#include "slice_mask.glsl"
+
 layout(local_size_x = kMultiviewTile, local_size_y = kMultiviewTile) in;
 layout(std430, set = 0, binding = 0) readonly buffer Occupied { uvec2 occupied[]; };
 layout(std430, set = 0, binding = 1) readonly buffer Tables { SceneLayerTable tables[]; };
@@ -31,8 +33,6 @@ uvec2 maskOf(ivec2 low, ivec2 high) {
   }
   return mask;
 }
-
-uvec2 bitOf(uint slice) { return slice < 32u ? uvec2(1u << slice, 0u) : uvec2(0u, 1u << (slice - 32u)); }
 
 void main() {
   const ivec2 cell = ivec2(gl_GlobalInvocationID.xy);

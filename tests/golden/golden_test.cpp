@@ -58,10 +58,10 @@ TEST_P(GoldenPictures, AreUnchanged) {
   }
   ASSERT_TRUE(fs::exists(file)) << file << " is missing; LENSGRAPH_UPDATE_GOLDEN=1 writes it";
   // The kept picture has 8 bits, which alone leaves 59 dB. Other devices and compilers round otherwise, and where an edge
-  // passes through a sample they may let it fall to the other side: that leaves room for one such pixel in a hundred.
+  // passes through a sample they may let it fall to the other side: that leaves room for a few such pixels in a thousand.
   const auto metrics = engine::compareImages(picture, engine::readImage(file));
   std::printf("%s: %.1f dB\n", golden.name().c_str(), metrics.psnr);
-  EXPECT_GE(metrics.psnr, 45.0);
+  EXPECT_GE(metrics.psnr, 50.0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Every, GoldenPictures, testing::ValuesIn(kGoldens),

@@ -50,4 +50,23 @@ Buffer declare(Graph& graph, const Everything& what) {
   return readback;
 }
 
+Chain declareChain(Graph& graph, float clear, uint32_t width) {
+  ImageDesc desc = kDesc;
+  desc.width = width;
+  Image half = graph.createImage("half", desc);
+  Image result = graph.createImage("result", desc);
+  Pass draw = graph.addPass("draw", PassKind::raster);
+  half = draw.color(half, {.clear = {{clear, 0, 0, 0}}});
+  draw.record([](PassContext& context) { context.draw({.program = kRaster, .bindings = {}}); });
+  Pass blur = graph.addPass("blur", PassKind::compute);
+  blur.sample(half);
+  result = blur.write(result, Usage::storage);
+  blur.record([=](PassContext& context) {
+    const Binding bindings[] = {sampled(half), storage(result)};
+    context.dispatch({.program = kCompute, .bindings = bindings, .groups = {}});
+  });
+  graph.exportImage(result, kSampled);
+  return {half, result};
+}
+
 }  // namespace executor_test

@@ -35,6 +35,12 @@ inline rendergraph::Misuse misuseOf(const std::function<void()>& action, std::st
   return rendergraph::Misuse::cycle;
 }
 
+struct Chain {
+  rendergraph::Image half, result;
+};
+/// Raster, compute, export. `clear` changes a value only, `width` (px) the structure.
+Chain declareChain(rendergraph::Graph& graph, float clear = 1.0f, uint32_t width = 64);
+
 /// A frame with one of everything: `width` px wide, a chain of `passes` compute passes between a raster pass and a
 /// read-back, a history, an upload buffer that a host pass fills when `host` is set.
 struct Everything {

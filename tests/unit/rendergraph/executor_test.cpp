@@ -1,69 +1,17 @@
 // The executor against a backend that writes down what it is asked for.
 #include "rendergraph/executor.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <chrono>
-#include <functional>
 #include <stdexcept>
 #include <thread>
 
-#include "fake_backend.h"
+#include "executor_support.h"
 
+using namespace executor_test;
 using namespace rendergraph;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-
-namespace {
-
-const ComputeProgram kProgram{.name = "program", .shader = {}};
-const RasterProgram kRaster{.name = "raster", .vertex = {}, .geometry = {}, .fragment = {}, .state = {}};
-const ImageDesc kDesc{.format = VK_FORMAT_R16G16B16A16_SFLOAT, .width = 64, .height = 32};
-const AccessState kSampled{VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
-                           VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
-
-struct Chain {
-  Image half, result;
-};
-
-/// raster -> compute -> export.
-Chain declareChain(Graph& graph, float clear = 1.0f, uint32_t width = 64) {
-  ImageDesc desc = kDesc;
-  desc.width = width;
-  Image half = graph.createImage("half", desc);
-  Image result = graph.createImage("result", desc);
-  Pass draw = graph.addPass("draw", PassKind::raster);
-  half = draw.color(half, {.clear = {{clear, 0, 0, 0}}});
-  draw.record([](PassContext& context) { context.draw({.program = kRaster, .bindings = {}}); });
-  Pass blur = graph.addPass("blur", PassKind::compute);
-  blur.sample(half);
-  result = blur.write(result, Usage::storage);
-  blur.record([=](PassContext& context) {
-    const Binding bindings[] = {sampled(half), storage(result)};
-    context.dispatch({.program = kProgram, .bindings = bindings, .groups = {}});
-  });
-  graph.exportImage(result, kSampled);
-  return {half, result};
-}
-
-void expectClean(const FakeBackend& backend) {
-  EXPECT_THAT(backend.mistakes, IsEmpty());
-}
-
-Misuse misuseOf(const std::function<void()>& action, std::string* text = nullptr) {
-  try {
-    action();
-  } catch (const GraphError& error) {
-    if (text != nullptr) *text = error.what();
-    return error.misuse();
-  }
-  ADD_FAILURE() << "nothing was thrown";
-  return Misuse::device;
-}
-
-}  // namespace
 
 TEST(Executor, RecordsInOrderAndSubmitsOnce) {
   FakeBackend backend;
@@ -301,7 +249,7 @@ TEST(Executor, ImportedImageMayChangeEveryFrame) {
     target = pass.write(target, Usage::storage);
     pass.record([=](PassContext& context) {
       const Binding bindings[] = {storage(target)};
-      context.dispatch({.program = kProgram, .bindings = bindings, .groups = {}});
+      context.dispatch({.program = kCompute, .bindings = bindings, .groups = {}});
     });
     executor.execute(graph);
     const uint64_t view = FakeBackend::idOf(backend.bindings[0].view);
@@ -474,7 +422,7 @@ TEST(Executor, SampledAndStorageInOnePassAreBoundInGeneral) {
   image = pass.write(image, Usage::storage, mip(1));
   pass.record([=](PassContext& context) {
     const Binding bindings[] = {sampled(read), storage(image, mip(1))};
-    context.dispatch({.program = kProgram, .bindings = bindings, .groups = {}});
+    context.dispatch({.program = kCompute, .bindings = bindings, .groups = {}});
   });
   executor.execute(graph);
   EXPECT_EQ(backend.bindings[0].layout, VK_IMAGE_LAYOUT_GENERAL);
