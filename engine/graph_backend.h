@@ -97,7 +97,7 @@ class GraphBackend final : public rendergraph::Backend {
   void copyImageToBuffer(const CommandStream& commands, VkImage from, VkBuffer to,
                          const VkBufferImageCopy& region) override;
   void copyBuffer(const CommandStream& commands, VkBuffer from, VkBuffer to, VkDeviceSize bytes) override;
-  void fillBuffer(const CommandStream& commands, VkBuffer to, uint32_t word) override;
+  void fillBuffer(const CommandStream& commands, VkBuffer to, uint32_t word, VkDeviceSize bytes) override;
   void updateBuffer(const CommandStream& commands, VkBuffer to, VkDeviceSize offset,
                     std::span<const std::byte> bytes) override;
   void clearImage(const CommandStream& commands, VkImage image, const VkClearColorValue& value,

@@ -134,8 +134,8 @@ void GraphBackend::copyBuffer(const CommandStream& commands, VkBuffer from, VkBu
   device_.vk().vkCmdCopyBuffer(commands.buffer, from, to, 1, &region);
 }
 
-void GraphBackend::fillBuffer(const CommandStream& commands, VkBuffer to, uint32_t word) {
-  device_.vk().vkCmdFillBuffer(commands.buffer, to, 0, VK_WHOLE_SIZE, word);
+void GraphBackend::fillBuffer(const CommandStream& commands, VkBuffer to, uint32_t word, VkDeviceSize bytes) {
+  device_.vk().vkCmdFillBuffer(commands.buffer, to, 0, bytes, word);
 }
 
 void GraphBackend::updateBuffer(const CommandStream& commands, VkBuffer to, VkDeviceSize offset,

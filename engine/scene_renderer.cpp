@@ -9,6 +9,7 @@
 #include "engine/commands.h"
 #include "engine/raster_pipeline.h"
 #include "engine/scene_constants.h"
+#include "spirv/scene/fragment_list_frag.h"
 #include "spirv/scene/layer_radiance_frag.h"
 #include "spirv/scene/layer_surface_frag.h"
 #include "spirv/scene/layers_geom.h"
@@ -35,12 +36,17 @@ constexpr std::array<BindingKind, 5> kSceneBindings = {BindingKind::storageBuffe
                                                        BindingKind::storageBuffer, BindingKind::uniformBuffer,
                                                        BindingKind::sampledImage};
 
+/// Which surfaces an emit draws: the alpha-blended ones, all others, or both.
+enum class Surfaces : uint8_t { opaque, blended, all };
+
 /// How an emit is drawn.
 struct EmitTraits {
   const char* name;
   rendergraph::SpirV geometry, fragment;
-  bool blended = false;  ///< Draws the alpha-blended surfaces, else all others.
+  Surfaces surfaces = Surfaces::opaque;
+  bool testsDepth = true;
   bool writesDepth = true;
+  VkCullModeFlags cull = VK_CULL_MODE_NONE;
 };
 
 EmitTraits traitsOf(SceneEmit emit) {
@@ -51,7 +57,7 @@ EmitTraits traitsOf(SceneEmit emit) {
       return {.name = "scene.transparent_list",
               .geometry = {},
               .fragment = scene_transparent_list_frag,
-              .blended = true,
+              .surfaces = Surfaces::blended,
               .writesDepth = false};
     case SceneEmit::opaqueLayers:
       return {.name = "scene.opaque_layers", .geometry = scene_layers_geom, .fragment = scene_layer_radiance_frag};
@@ -59,16 +65,26 @@ EmitTraits traitsOf(SceneEmit emit) {
       return {.name = "scene.transparent_layers",
               .geometry = scene_layers_geom,
               .fragment = scene_layer_radiance_frag,
-              .blended = true};
+              .surfaces = Surfaces::blended};
     case SceneEmit::opaqueSurfaceLayers:
       return {
           .name = "scene.opaque_surface_layers", .geometry = scene_layers_geom, .fragment = scene_layer_surface_frag};
+    case SceneEmit::fragmentList:
+    case SceneEmit::frontFragmentList:
+      return {.name = "scene.fragment_list",
+              .geometry = {},
+              .fragment = scene_fragment_list_frag,
+              .surfaces = Surfaces::all,
+              .testsDepth = false,
+              .writesDepth = false,
+              .cull = emit == SceneEmit::fragmentList ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT};
   }
   return {};
 }
 
 bool isDrawnBy(SceneEmit emit, AlphaMode mode) {
-  return traitsOf(emit).blended == (mode == AlphaMode::blend);
+  const Surfaces surfaces = traitsOf(emit).surfaces;
+  return surfaces == Surfaces::all || (surfaces == Surfaces::blended) == (mode == AlphaMode::blend);
 }
 
 GpuBuffer hostBuffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage, const char* name) {
@@ -210,7 +226,7 @@ SceneRenderer::EmitPipeline& SceneRenderer::pipelineFor(const SceneDrawRequest& 
   made->layout = {device_.handle(), layout, device_.vk().vkDestroyPipelineLayout};
 
   const EmitTraits traits = traitsOf(request.emit);
-  const bool discards = masked || (traits.blended && traits.writesDepth);
+  const bool discards = masked || (traits.surfaces == Surfaces::blended && traits.writesDepth);
   const std::array<uint32_t, 2> words = {discards ? VK_TRUE : VK_FALSE, lit_ ? VK_TRUE : VK_FALSE};
   const std::array<VkSpecializationMapEntry, 2> entries = {{{0, 0, sizeof(uint32_t)}, {1, 4, sizeof(uint32_t)}}};
   const VkSpecializationInfo specialization{2, entries.data(), sizeof words, words.data()};
@@ -219,7 +235,7 @@ SceneRenderer::EmitPipeline& SceneRenderer::pipelineFor(const SceneDrawRequest& 
   desc.vertex = scene_scene_vert;
   desc.geometry = traits.geometry;
   desc.fragment = traits.fragment;
-  desc.state = {.depthTest = true, .depthWrite = traits.writesDepth};
+  desc.state = {.cull = traits.cull, .depthTest = traits.testsDepth, .depthWrite = traits.writesDepth};
   desc.specialization = &specialization;
   desc.colorFormats = request.colorFormats;
   desc.depthFormat = request.depthFormat;

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "passes/accumulation/accumulation.h"
+#include "passes/multilayer_filtering/multilayer_filtering.h"
 #include "passes/multiview_synthesis/multiview_synthesis.h"
 #include "passes/pinhole/pinhole.h"
 #include "passes/two_pass_filter/two_pass_filter.h"
@@ -15,6 +16,7 @@ std::span<const Technique> techniques() {
       pinhole::technique(),
       accumulation::technique(),
       multiview_synthesis::technique(),
+      multilayer_filtering::technique(),
       two_pass_filter::technique(),
   };
   return all;

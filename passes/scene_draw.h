@@ -55,6 +55,10 @@ struct SceneDraw {
   /// Room for alpha-blended fragments, a mean over all pixels. Too little drops fragments and counts them in
   /// FrameStatistics::transparentDropped; the host then renders again with more.
   float transparentNodesPerPixel = 4.0f;
+  /// The same for fragments of all surfaces, of techniques that keep every one: of linked lists, beyond the first of each
+  /// pixel; and of lists compacted and filtered. See FrameStatistics::fragmentNodesDropped and listFragmentsDropped.
+  float fragmentNodesPerPixel = 2.0f;
+  float listFragmentsPerPixel = 6.0f;
 };
 
 }  // namespace passes

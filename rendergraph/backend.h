@@ -149,7 +149,8 @@ class Backend : public DeviceFacts {
   virtual void copyImageToBuffer(const CommandStream& commands, VkImage from, VkBuffer to,
                                  const VkBufferImageCopy& region) = 0;
   virtual void copyBuffer(const CommandStream& commands, VkBuffer from, VkBuffer to, VkDeviceSize bytes) = 0;
-  virtual void fillBuffer(const CommandStream& commands, VkBuffer to, uint32_t word) = 0;
+  /// `bytes` may be VK_WHOLE_SIZE.
+  virtual void fillBuffer(const CommandStream& commands, VkBuffer to, uint32_t word, VkDeviceSize bytes) = 0;
   virtual void updateBuffer(const CommandStream& commands, VkBuffer to, VkDeviceSize offset,
                             std::span<const std::byte> bytes) = 0;
   /// The range is in layout TRANSFER_DST_OPTIMAL, as is the destination of copies; their source is in

@@ -80,7 +80,8 @@ class PassContext {
   /// First mip and layer of the range declared as transferSource, in tightly packed rows.
   void copyImageToBuffer(Image from, Buffer to);
   void copyBuffer(Buffer from, Buffer to, VkDeviceSize bytes);
-  void fillBuffer(Buffer to, uint32_t word);
+  /// The first `bytes` of it, a multiple of 4; by default all.
+  void fillBuffer(Buffer to, uint32_t word, VkDeviceSize bytes = VK_WHOLE_SIZE);
   /// Writes bytes to the start of a buffer declared as transferDestination: a multiple of 4, no more than the buffer
   /// holds. They travel in the command buffer and are copied by the call: meant for tables of some kilobytes.
   void updateBuffer(Buffer to, std::span<const std::byte> bytes);

@@ -151,7 +151,7 @@ void RetainedStore::barrier(const CommandStream& commands, const Current& curren
 void RetainedStore::recordZero(const CommandStream& commands, const Current& current) {
   const VkImage image = current.side->image.get();
   if (!current.entry->isImage) {
-    backend_.fillBuffer(commands, current.side->buffer.get(), 0);
+    backend_.fillBuffer(commands, current.side->buffer.get(), 0, VK_WHOLE_SIZE);
     barrier(commands, current, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_UNDEFINED);
     return;
   }

@@ -73,6 +73,24 @@ void add(shared::FrameStatistics& total, const shared::FrameStatistics& frame) {
   total.clampedCoc = std::max(total.clampedCoc, frame.clampedCoc);
   total.transparentNodes = std::max(total.transparentNodes, frame.transparentNodes);
   total.transparentDropped = std::max(total.transparentDropped, frame.transparentDropped);
+  total.fragmentNodes = std::max(total.fragmentNodes, frame.fragmentNodes);
+  total.fragmentNodesDropped = std::max(total.fragmentNodesDropped, frame.fragmentNodesDropped);
+  total.listFragments = std::max(total.listFragments, frame.listFragments);
+  total.listFragmentsDropped = std::max(total.listFragmentsDropped, frame.listFragmentsDropped);
+  total.unsortedLists += frame.unsortedLists;
+}
+
+/// Whether something was left out of a frame for want of room.
+bool lacksRoom(const shared::FrameStatistics& frame) {
+  return frame.transparentDropped > 0 || frame.fragmentNodesDropped > 0 || frame.listFragmentsDropped > 0;
+}
+
+/// Sets the room of what was too small to a quarter more than was needed, so that neighbouring views fit too.
+void makeRoom(const shared::FrameStatistics& frame, double pixels, passes::SceneDraw& scene) {
+  const auto perPixel = [&](uint32_t needed) { return static_cast<float>(1.25 * needed / pixels); };
+  if (frame.transparentDropped > 0) scene.transparentNodesPerPixel = perPixel(frame.transparentNodes);
+  if (frame.fragmentNodesDropped > 0) scene.fragmentNodesPerPixel = perPixel(frame.fragmentNodes);
+  if (frame.listFragmentsDropped > 0) scene.listFragmentsPerPixel = perPixel(frame.listFragments);
 }
 
 /// Vergence of a depth picture's sample; what is not a positive depth is infinitely far.
@@ -276,7 +294,7 @@ Rendering Renderer::State::run(const passes::Technique& technique, const DofInpu
       std::memcpy(&statistics, executor.mapped(buffer).data(), sizeof statistics);
       add(rendering.statistics, statistics);
     }
-    if (rendering.statistics.transparentDropped > 0) return rendering;  // The caller makes room and starts again.
+    if (lacksRoom(rendering.statistics)) return rendering;  // The caller makes room and starts again.
     if (options.progress) options.progress(frame + 1, frames);
     if (!isLast) continue;
     rendering.color = imageFrom(executor.mapped(back.color), inputs.extent, 4);
@@ -300,10 +318,8 @@ Rendering Renderer::render(const Shot& shot, const RenderOptions& options) {
       now.frame = frame;
       return state_->declareTechnique(graph, now, technique, options);
     });
-    if (rendering.statistics.transparentDropped == 0) return rendering;
-    // A quarter more than was needed, so that neighbouring views fit too.
-    state_->sceneDraw.transparentNodesPerPixel =
-        static_cast<float>(1.25 * rendering.statistics.transparentNodes / pixels);
+    if (!lacksRoom(rendering.statistics)) return rendering;
+    makeRoom(rendering.statistics, pixels, state_->sceneDraw);
   }
 }
 

@@ -30,6 +30,15 @@ enum class SceneEmit : uint32_t {
   /// opaqueLayers for shading anew where a lens ray hits. Colour attachment 0: radiance without gloss, alpha 1;
   /// 1: specular colour at normal incidence, perceptual roughness; 2: normal in view space (0: no gloss), occlusion.
   opaqueSurfaceLayers = 4,
+  /// All surfaces, opaque, alpha-masked and alpha-blended, into per-pixel lists, hidden ones too (Yang et al. 2010). No
+  /// attachments, no depth test. Each fragment with alpha above 0 appends a FragmentNode to the list of its pixel, by
+  /// appendFragment() of shaders/scene/fragment_list.glsl. Bindings of set 2:
+  ///   0  r32ui storage image, coherent: index of the list's first node + 1; 0 is an empty list
+  ///   1  coherent storage buffer of FragmentNode; the first of them, one a pixel, are reserved for each pixel's first
+  ///   2  storage buffer of one uint, the allocator: nodes asked for beyond the reserved ones
+  fragmentList = 5,
+  /// The same without the surfaces that face away from the camera.
+  frontFragmentList = 6,
 };
 #endif
 
@@ -58,6 +67,17 @@ struct TransparentNode {
   float vergence;          // 1/viewDepth times the near plane: the depth buffer's value
   uint next;               // index + 1 of the next node of this pixel; 0 ends the list
 };
+
+// A fragment of any surface. 16 bytes, scalars only. Radiance is limited to half floats' range and not premultiplied.
+struct FragmentNode {
+  uint redGreen, blueAlpha;  // half floats, packHalf2x16
+  uint vergence;             // bits of the depth buffer's value (1/viewDepth times the near plane); its order is theirs
+  uint next;                 // index + 1 of the next node of this pixel, 0 ends the list; and the flags below
+};
+SHARED_CONST uint kFragmentNextMask = 0x3fffffffu;
+SHARED_CONST uint kFragmentSolid = 0x40000000u;     // of an opaque material: neither alpha-masked nor alpha-blended
+SHARED_CONST uint kFragmentFacesAway = 0x80000000u;
+SHARED_CONST uint kFragmentPending = 0xffffffffu;   // vergence of a node that is being written: no depth has these bits
 
 SHARED_NAMESPACE_END
 

@@ -12,6 +12,11 @@ struct FrameStatistics {
   uint transparentDropped;    // most that found no room in one view (the picture is then incomplete)
   uint transparentUnsorted;   // pixels, over all views, with lists too long to composite whole: the nearest fragments are missing
   uint clampedCoc;            // pixels whose blur radius was limited by maxCocRadius
+  uint fragmentNodes;         // fragments of all surfaces that per-pixel lists were asked to hold, see SceneDraw
+  uint fragmentNodesDropped;  // those that found no room
+  uint listFragments;         // fragments that compacted and filtered lists were asked to hold
+  uint listFragmentsDropped;  // those that found no room
+  uint unsortedLists;         // pixels whose lists were too long to be sorted whole: fragments may be missing
 };
 
 SHARED_NAMESPACE_END

@@ -431,8 +431,9 @@ void FakeBackend::copyImageToBuffer(const CommandStream& stream, VkImage from, V
 void FakeBackend::copyBuffer(const CommandStream& stream, VkBuffer from, VkBuffer to, VkDeviceSize bytes) {
   if (!silent) note(stream, "copy buffer " + std::to_string(bytes), {idOf(from), idOf(to)});
 }
-void FakeBackend::fillBuffer(const CommandStream& stream, VkBuffer to, uint32_t word) {
-  if (!silent) note(stream, "fill " + std::to_string(word), {idOf(to)});
+void FakeBackend::fillBuffer(const CommandStream& stream, VkBuffer to, uint32_t word, VkDeviceSize bytes) {
+  if (silent) return;
+  note(stream, "fill " + std::to_string(word) + (bytes == VK_WHOLE_SIZE ? "" : " x" + std::to_string(bytes)), {idOf(to)});
 }
 void FakeBackend::updateBuffer(const CommandStream& stream, VkBuffer to, VkDeviceSize offset,
                                std::span<const std::byte> bytes) {

@@ -124,7 +124,7 @@ class FakeBackend : public rendergraph::Backend {
   void copyImage(const CommandStream& commands, VkImage, VkImage, const VkImageCopy& region) override;
   void copyImageToBuffer(const CommandStream& commands, VkImage, VkBuffer, const VkBufferImageCopy&) override;
   void copyBuffer(const CommandStream& commands, VkBuffer, VkBuffer, VkDeviceSize bytes) override;
-  void fillBuffer(const CommandStream& commands, VkBuffer, uint32_t word) override;
+  void fillBuffer(const CommandStream& commands, VkBuffer, uint32_t word, VkDeviceSize bytes) override;
   void updateBuffer(const CommandStream& commands, VkBuffer, VkDeviceSize offset,
                     std::span<const std::byte> bytes) override;
   void clearImage(const CommandStream& commands, VkImage, const VkClearColorValue&,

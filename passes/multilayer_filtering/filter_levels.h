@@ -1,0 +1,50 @@
+// Which levels of filtering a picture needs, and where their cells lie (Selgrad, Reintges, Penk, Wagner, Stamminger 2015,
+// §5.2 and §6.1). Pure.
+//
+// Level L is filtered by a box of 2^L px. The first `mipSteps` levels halve the resolution (mip map), further ones keep it
+// and take taps 2^(L-1) px apart (filter stack): the Y-map of §5.2.
+#pragma once
+
+#include <vulkan/vulkan_core.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "shaders/shared/multilayer_filtering.h"
+
+namespace passes::multilayer_filtering {
+
+/// Which filter is as wide as a circle of confusion.
+enum class LevelMatch : uint8_t {
+  moments,   ///< The one whose second moment, look-up included, is the aperture's.
+  diameter,  ///< The one whose side is the diameter (the paper).
+};
+
+struct LevelRequest {
+  VkExtent2D extent = {1, 1};  ///< px, of the picture.
+  double nearCoc = 0.0;        ///< px, ≥ 0: largest |c| of anything in front of the focal plane.
+  double farCoc = 0.0;         ///< px, ≥ 0: largest |c| of anything behind it, the background included.
+  int mipSteps = 1;
+  int stackSteps = -1;  ///< -1: as many as the blur asks for; of more than kMostStackSteps, the rest become mip steps.
+  double border = 0.0;  ///< px: lists exist this far beyond the picture. Beyond, the border's repeat.
+  double apertureMoment = 0.25;  ///< Variance of the aperture along an axis, in |c|²; 1/4 for a disc.
+  LevelMatch match = LevelMatch::moments;
+  bool bilinear = true;  ///< Cells are looked up bilinearly, which widens the filter.
+  bool truncate = true;  ///< Drop fragments that neither a level nor a coarser one shows.
+};
+
+/// More would make levels much larger than the picture, for the taps reach far beyond it.
+inline constexpr int kMostStackSteps = 6;
+
+struct LevelPlan {
+  std::vector<shared::FilterLevel> levels;  ///< At least one.
+  uint32_t listCount = 0;                   ///< Of all levels, each with one more that marks its end.
+  uint32_t nearLevels = 0, farLevels = 0;   ///< Coarsest level that shows in front of and behind the focal plane.
+};
+
+/// |c| in px at which level L shows alone; 0 for level 0 by moments. Increases with L.
+double shownRadius(const LevelRequest& request, int mipSteps, int level);
+
+LevelPlan planLevels(const LevelRequest& request);
+
+}  // namespace passes::multilayer_filtering

@@ -1,0 +1,63 @@
+// All fragments of the scene in per-pixel lists, filtered level by level, composited by circle of confusion (Selgrad,
+// Reintges, Penk, Wagner, Stamminger 2015).
+#pragma once
+
+#include <array>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "passes/dof_io.h"
+#include "passes/multilayer_filtering/filter_levels.h"
+#include "passes/parameters.h"
+#include "passes/registry.h"
+
+namespace passes::multilayer_filtering {
+
+/// Which fragments lists hold.
+enum class Faces : uint8_t {
+  outer,  ///< Both faces, but not the insides of opaque solids.
+  all,    ///< Both faces.
+  front,  ///< Those that face the camera (the paper).
+};
+inline constexpr std::array<std::string_view, 3> kFacesNames = {"outer", "all", "front"};
+
+/// How surfaces one behind another are composited.
+enum class Blend : uint8_t {
+  over,      ///< As if they hid independent parts of the lens.
+  additive,  ///< As if the farther lay beside the nearer until nothing is left of the lens (the paper).
+};
+inline constexpr std::array<std::string_view, 2> kBlendNames = {"over", "additive"};
+
+inline constexpr std::array<std::string_view, 2> kLevelMatchNames = {"moments", "diameter"};
+
+struct Parameters {
+  int listLength = 4;    ///< 1…64: n, fragments of a pixel that are kept, nearest first.
+  int mipSteps = 1;      ///< 0…13: a of the filter configuration a/b.
+  int stackSteps = -1;   ///< -1…10: b; -1: as many as the blur asks for.
+  double epsilon = 0.2;  ///< 0…4: fragments are merged while their |c| differ by less than this share of it.
+  double linkDistance = 0.4;  ///< 0…4: gap up to which fragments belong to one surface, as a share of |c|.
+  Blend blend = Blend::over;
+  LevelMatch levelMatch = LevelMatch::moments;
+  bool interpolateLevels = true;
+  bool bilinear = true;
+  bool truncation = true;
+  Faces faces = Faces::outer;
+  double border = 1.0;  ///< 0…1 of the largest blur radius: how far lists reach beyond the picture. 0 is the paper's.
+};
+
+std::span<const Field<Parameters>> fields();
+/// What is wrong with inputs; empty when nothing is.
+std::vector<Problem> validate(const Parameters& parameters, const DofInputs& inputs);
+
+/// Always 1.
+uint32_t frameCount(const Parameters& parameters, const DofInputs& inputs);
+
+/// Aperture 0 gives the pinhole picture, bit for bit.
+/// Precondition: inputs.scene is set and outlives the recording.
+DofOutputs declare(rendergraph::Graph& graph, const DofInputs& inputs, const Parameters& parameters);
+
+/// The registry's entry.
+Technique technique();
+
+}  // namespace passes::multilayer_filtering

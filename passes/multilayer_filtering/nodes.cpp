@@ -1,0 +1,291 @@
+// Nodes of the multi-layer filtering. What they compute is in shaders/multilayer_filtering.
+#include "passes/multilayer_filtering/nodes.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <string>
+#include <vector>
+
+#include "passes/lens_view.h"
+#include "passes/prefix_sum.h"
+#include "passes/scene_view.h"
+#include "shaders/shared/emit.h"
+#include "shaders/shared/multilayer_filtering.h"
+#include "spirv/multilayer_filtering/accumulate_comp.h"
+#include "spirv/multilayer_filtering/compact_comp.h"
+#include "spirv/multilayer_filtering/count_comp.h"
+#include "spirv/multilayer_filtering/merge_comp.h"
+#include "spirv/multilayer_filtering/sort_comp.h"
+
+namespace passes::multilayer_filtering {
+namespace {
+
+using rendergraph::Binding;
+using rendergraph::Buffer;
+using rendergraph::ComputeProgram;
+using rendergraph::Graph;
+using rendergraph::Image;
+using rendergraph::Pass;
+using rendergraph::PassContext;
+using rendergraph::PassKind;
+using rendergraph::Usage;
+
+const ComputeProgram kSort{"multilayer_filtering.sort", multilayer_filtering_sort_comp};
+const ComputeProgram kCompact{"multilayer_filtering.compact", multilayer_filtering_compact_comp};
+const ComputeProgram kCount{"multilayer_filtering.count", multilayer_filtering_count_comp};
+const ComputeProgram kMerge{"multilayer_filtering.merge", multilayer_filtering_merge_comp};
+const ComputeProgram kAccumulate{"multilayer_filtering.accumulate", multilayer_filtering_accumulate_comp};
+
+std::string named(const char* name) {
+  return std::string("multilayer_filtering.") + name;
+}
+
+shared::ivec2 signedExtent(VkExtent2D extent) {
+  return {static_cast<int32_t>(extent.width), static_cast<int32_t>(extent.height)};
+}
+
+uint32_t room(double perPixel, VkExtent2D extent, uint64_t most) {
+  const double wanted = perPixel * extent.width * extent.height;
+  return static_cast<uint32_t>(std::clamp(wanted, 1.0, static_cast<double>(most)));
+}
+
+/// The view of the pixels' lists: that of the pinhole, on a picture that is larger all around.
+shared::ViewConstants listView(const FramePlan& plan) {
+  DofInputs wider = plan.inputs;
+  wider.extent = plan.listExtent();
+  const auto shift = [](int32_t first, uint32_t inner, uint32_t outer) {
+    return static_cast<float>(-first) + 0.5f * static_cast<float>(inner) - 0.5f * static_cast<float>(outer);
+  };
+  const auto& first = plan.levels.levels.front().first;
+  return viewFromLens(wider, {0.0f, 0.0f},
+                      {shift(first.x, plan.inputs.extent.width, wider.extent.width),
+                       shift(first.y, plan.inputs.extent.height, wider.extent.height)});
+}
+
+VkExtent2D extentOf(const shared::FilterLevel& level) {
+  return {static_cast<uint32_t>(level.size.x), static_cast<uint32_t>(level.size.y)};
+}
+
+/// Where everything is opaque nothing reads coverages, and another buffer is bound in their place.
+Buffer coveragesOr(const FragmentLists& lists) {
+  return lists.coverages ? lists.coverages : lists.vergences;
+}
+
+}  // namespace
+
+VkExtent2D FramePlan::listExtent() const {
+  return extentOf(levels.levels.front());
+}
+
+uint32_t FramePlan::reservedNodes() const {
+  return listExtent().width * listExtent().height;
+}
+
+uint32_t FramePlan::nodeRoom() const {
+  return room(inputs.scene->fragmentNodesPerPixel, listExtent(), shared::kFragmentNextMask - 1 - reservedNodes());
+}
+
+uint32_t FramePlan::listRoom() const {
+  return room(inputs.scene->listFragmentsPerPixel, inputs.extent, UINT32_MAX / sizeof(shared::uvec2));
+}
+
+LinkedLists declareCollect(Graph& graph, const FramePlan& plan) {
+  const VkExtent2D extent = plan.listExtent();
+  const VkDeviceSize reserved = VkDeviceSize{plan.reservedNodes()} * sizeof(shared::FragmentNode);
+  LinkedLists lists;
+  lists.heads = graph.createImage(named("heads"),
+                                  {.format = VK_FORMAT_R32_UINT, .width = extent.width, .height = extent.height});
+  lists.nodes = graph.createBuffer(
+      named("nodes"), {.size = reserved + VkDeviceSize{plan.nodeRoom()} * sizeof(shared::FragmentNode)});
+  lists.allocator = graph.createBuffer(named("allocator"), {.size = sizeof(uint32_t)});
+  auto clear = graph.addPass(named("clear_lists"), PassKind::transfer);
+  lists.heads = clear.write(lists.heads, Usage::transferDestination);
+  lists.nodes = clear.write(lists.nodes, Usage::transferDestination);
+  lists.allocator = clear.write(lists.allocator, Usage::transferDestination);
+  clear.record([lists, reserved](PassContext& context) {
+    context.clearImage(lists.heads, VkClearColorValue{});
+    context.fillBuffer(lists.nodes, shared::kFragmentPending, reserved);
+    context.fillBuffer(lists.allocator, 0);
+  });
+
+  auto collect = graph.addPass(named("collect"), PassKind::raster);
+  constexpr auto kFragment = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
+  collect.renderArea(extent);
+  lists.heads = collect.modify(lists.heads, Usage::storage, {}, kFragment);
+  lists.nodes = collect.modify(lists.nodes, Usage::storage, kFragment);
+  lists.allocator = collect.modify(lists.allocator, Usage::storage, kFragment);
+  const auto emit = plan.parameters.faces == Faces::front ? shared::SceneEmit::frontFragmentList
+                                                          : shared::SceneEmit::fragmentList;
+  collect.record([scene = plan.inputs.scene, extent, view = listView(plan), lists, emit](PassContext& context) {
+    const std::array bindings = {rendergraph::storage(lists.heads), rendergraph::storage(lists.nodes),
+                                 rendergraph::storage(lists.allocator)};
+    scene->record(context, {.emit = emit, .view = view, .extent = extent, .emitBindings = bindings});
+  });
+  return lists;
+}
+
+namespace {
+
+FragmentLists declareUpload(Graph& graph, const FramePlan& plan) {
+  const auto& levels = plan.levels.levels;
+  FragmentLists lists;
+  lists.levels = graph.createBuffer(named("levels"), {.size = std::as_bytes(std::span(levels)).size()});
+  lists.lists = graph.createBuffer(named("lists"), {.size = plan.levels.listCount * sizeof(uint32_t)});
+  const VkDeviceSize fragments = plan.listRoom();
+  lists.vergences = graph.createBuffer(named("vergences"), {.size = fragments * sizeof(float)});
+  lists.colors = graph.createBuffer(named("colors"), {.size = fragments * sizeof(shared::uvec2)});
+  if (plan.hasCoverage()) {
+    lists.coverages = graph.createBuffer(named("coverages"), {.size = fragments * sizeof(float)});
+  }
+  auto pass = graph.addPass(named("upload"), PassKind::transfer);
+  lists.levels = pass.write(lists.levels, Usage::transferDestination);
+  pass.record([table = lists.levels, levels](PassContext& context) {
+    context.updateBuffer(table, std::as_bytes(std::span(levels)));
+  });
+  return lists;
+}
+
+void declareSort(Graph& graph, const FramePlan& plan, LinkedLists& linked, Buffer& counts, Buffer& statistics) {
+  auto pass = graph.addPass(named("sort"), PassKind::compute);
+  linked.heads = pass.modify(linked.heads, Usage::storage);
+  linked.nodes = pass.modify(linked.nodes, Usage::storage);
+  counts = pass.write(counts, Usage::storage);
+  statistics = pass.modify(statistics, Usage::storage);
+  const auto length = static_cast<uint32_t>(plan.parameters.listLength);
+  const bool outer = plan.parameters.faces == Faces::outer;
+  // A solid gives two fragments, of which one stays.
+  const std::array<uint32_t, 3> specialization = {length, outer ? 2 * length : length, outer ? 1u : 0u};
+  pass.record([linked, counts, statistics, specialization, extent = plan.listExtent()](PassContext& context) {
+    const std::array bindings = {rendergraph::storage(linked.heads), rendergraph::storage(linked.nodes),
+                                 rendergraph::storage(counts), rendergraph::storage(statistics)};
+    context.dispatch({.program = kSort,
+                      .bindings = bindings,
+                      .specialization = specialization,
+                      .groups = rendergraph::groupsFor(extent, shared::kMultilayerTile)});
+  });
+}
+
+}  // namespace
+
+FragmentLists declareCompact(Graph& graph, const FramePlan& plan, LinkedLists& linked, Buffer& statistics) {
+  FragmentLists lists = declareUpload(graph, plan);
+  declareSort(graph, plan, linked, lists.lists, statistics);
+  declarePrefixSum(graph, named("scan0"), lists.lists, {.count = plan.reservedNodes()});
+
+  auto pass = graph.addPass(named("compact"), PassKind::compute);
+  pass.read(linked.heads, Usage::storage);
+  pass.read(linked.nodes, Usage::storage);
+  pass.read(linked.allocator, Usage::storage);
+  pass.read(lists.lists, Usage::storage);
+  lists.vergences = pass.write(lists.vergences, Usage::storage);
+  lists.colors = pass.write(lists.colors, Usage::storage);
+  if (plan.hasCoverage()) lists.coverages = pass.write(lists.coverages, Usage::storage);
+  statistics = pass.modify(statistics, Usage::storage);
+  const auto& lens = plan.inputs.lens;
+  const shared::CompactPush push{.size = signedExtent(plan.listExtent()),
+                                 .vergenceScale = lens.vergenceScale,
+                                 .vergenceOffset = lens.vergenceOffset,
+                                 .room = plan.listRoom(),
+                                 .reservedNodes = plan.reservedNodes()};
+  const std::array<uint32_t, 1> specialization = {plan.hasCoverage() ? 1u : 0u};
+  pass.record([linked, lists, statistics, push, specialization, extent = plan.listExtent()](PassContext& context) {
+    const std::array bindings = {rendergraph::storage(linked.heads),       rendergraph::storage(linked.nodes),
+                                 rendergraph::storage(linked.allocator),   rendergraph::storage(lists.lists),
+                                 rendergraph::storage(lists.vergences),    rendergraph::storage(lists.colors),
+                                 rendergraph::storage(coveragesOr(lists)), rendergraph::storage(statistics)};
+    context.dispatch({.program = kCompact,
+                      .bindings = bindings,
+                      .pushConstants = rendergraph::bytesOf(push),
+                      .specialization = specialization,
+                      .groups = rendergraph::groupsFor(extent, shared::kMultilayerTile)});
+  });
+  return lists;
+}
+
+void declareFilter(Graph& graph, const FramePlan& plan, uint32_t level, FragmentLists& lists) {
+  const auto& made = plan.levels.levels[level];
+  const std::string number = std::to_string(level);
+  const auto groups = rendergraph::groupsFor(extentOf(made), shared::kMultilayerTile);
+  const shared::FilterPush push{.level = level,
+                                .room = plan.listRoom(),
+                                .cocScale = plan.inputs.lens.cocScale,
+                                .focusVergence = plan.inputs.lens.focusVergence,
+                                .epsilon = static_cast<float>(plan.parameters.epsilon)};
+  auto count = graph.addPass(named("count") + number, PassKind::compute);
+  count.read(lists.levels, Usage::storage);
+  count.read(lists.vergences, Usage::storage);
+  lists.lists = count.modify(lists.lists, Usage::storage);
+  count.record([lists, push, groups](PassContext& context) {
+    const std::array bindings = {rendergraph::storage(lists.levels), rendergraph::storage(lists.lists),
+                                 rendergraph::storage(lists.vergences)};
+    context.dispatch(
+        {.program = kCount, .bindings = bindings, .pushConstants = rendergraph::bytesOf(push), .groups = groups});
+  });
+  const auto cells = static_cast<uint32_t>(made.size.x * made.size.y);
+  declarePrefixSum(graph, named("scan") + number, lists.lists,
+                   {.first = made.firstList, .count = cells, .continues = true});
+
+  auto merge = graph.addPass(named(made.tapDistance == 0 ? "mip" : "stack") + number, PassKind::compute);
+  merge.read(lists.levels, Usage::storage);
+  merge.read(lists.lists, Usage::storage);
+  lists.vergences = merge.modify(lists.vergences, Usage::storage);
+  lists.colors = merge.modify(lists.colors, Usage::storage);
+  if (plan.hasCoverage()) lists.coverages = merge.modify(lists.coverages, Usage::storage);
+  const std::array<uint32_t, 1> specialization = {plan.hasCoverage() ? 1u : 0u};
+  merge.record([lists, push, groups, specialization](PassContext& context) {
+    const std::array bindings = {rendergraph::storage(lists.levels), rendergraph::storage(lists.lists),
+                                 rendergraph::storage(lists.vergences), rendergraph::storage(lists.colors),
+                                 rendergraph::storage(coveragesOr(lists))};
+    context.dispatch({.program = kMerge,
+                      .bindings = bindings,
+                      .pushConstants = rendergraph::bytesOf(push),
+                      .specialization = specialization,
+                      .groups = groups});
+  });
+}
+
+Image declareAccumulate(Graph& graph, const FramePlan& plan, const FragmentLists& lists, Buffer& statistics) {
+  const auto& [inputs, parameters] = std::pair(plan.inputs, plan.parameters);
+  Image picture = graph.createImage(
+      named("color"),
+      {.format = kViewColorFormat, .width = inputs.extent.width, .height = inputs.extent.height});
+  auto pass = graph.addPass(named("accumulate"), PassKind::compute);
+  for (const Buffer& buffer : {lists.levels, lists.lists, lists.vergences, lists.colors}) {
+    pass.read(buffer, Usage::storage);
+  }
+  if (plan.hasCoverage()) pass.read(lists.coverages, Usage::storage);
+  picture = pass.write(picture, Usage::storage);
+  statistics = pass.modify(statistics, Usage::storage);
+  const shared::MultilayerAccumulatePush push{.size = signedExtent(inputs.extent),
+                                              .levelCount = static_cast<uint32_t>(plan.levels.levels.size()),
+                                              .room = plan.listRoom(),
+                                              .cocScale = inputs.lens.cocScale,
+                                              .focusVergence = inputs.lens.focusVergence,
+                                              .epsilon = static_cast<float>(parameters.epsilon),
+                                              .linkDistance = static_cast<float>(parameters.linkDistance),
+                                              .red = inputs.background[0],
+                                              .green = inputs.background[1],
+                                              .blue = inputs.background[2],
+                                              .nearLevels = plan.levels.nearLevels,
+                                              .farLevels = plan.levels.farLevels};
+  // The paper's borders are where a level begins to show; ours, half of the way to where it shows alone.
+  const float stepAt = parameters.levelMatch == LevelMatch::diameter ? 0.0f : 0.5f;
+  const std::array<uint32_t, 5> specialization = {
+      plan.hasCoverage() ? 1u : 0u, parameters.interpolateLevels ? 1u : 0u, parameters.bilinear ? 1u : 0u,
+      parameters.blend == Blend::additive ? 1u : 0u, std::bit_cast<uint32_t>(stepAt)};
+  pass.record([lists, picture, statistics, push, specialization, extent = inputs.extent](PassContext& context) {
+    const std::array bindings = {rendergraph::storage(lists.levels),    rendergraph::storage(lists.lists),
+                                 rendergraph::storage(lists.vergences), rendergraph::storage(lists.colors),
+                                 rendergraph::storage(coveragesOr(lists)), rendergraph::storage(picture),
+                                 rendergraph::storage(statistics)};
+    context.dispatch({.program = kAccumulate,
+                      .bindings = bindings,
+                      .pushConstants = rendergraph::bytesOf(push),
+                      .specialization = specialization,
+                      .groups = rendergraph::groupsFor(extent, shared::kMultilayerTile)});
+  });
+  return picture;
+}
+
+}  // namespace passes::multilayer_filtering

@@ -1,0 +1,62 @@
+// What the multi-layer filtering's shaders and their host code agree on.
+// Source: Selgrad, Reintges, Penk, Wagner, Stamminger 2015; see passes/multilayer_filtering/README.md.
+#ifndef LENSGRAPH_SHARED_MULTILAYER_FILTERING_H
+#define LENSGRAPH_SHARED_MULTILAYER_FILTERING_H
+
+#include "shaders/shared/interop.h"
+
+SHARED_NAMESPACE_BEGIN
+
+SHARED_CONST uint kMultilayerTile = 8u;      // cells; work group side
+SHARED_CONST uint kMaxFilterLevels = 14u;    // 0 … 13: filters up to 8192 px wide
+SHARED_CONST uint kListLengthMost = 64u;     // fragments a pixel that sorting can keep
+// Visits of nodes and shifts that sorting one list may take; devices may end loops after 65 535 iterations, silently.
+SHARED_CONST uint kSortBudget = 60000u;
+
+// One level of the hierarchy: a window of cells, each with a list of fragments filtered by a box of 2^level px.
+// Cell (0, 0)'s centre lies at 2^level / 2 px from the picture's upper left corner, in both axes, at every level.
+struct FilterLevel {
+  ivec2 first;      // index of the window's upper left cell; negative beyond the picture
+  ivec2 size;       // cells
+  float cellSize;   // px from cell to cell
+  float centre;     // px, of cell 0
+  uint firstList;   // index of the first cell's list among all lists
+  int tapDistance;  // cells of the level before, from tap to tap; 0: mip step, taps at twice the index
+  // Squares of |c|, px²: below `inner` and above `outer` the level does not show, at `own` it shows alone.
+  float inner, own, outer;
+  float dropWithin;  // px: while the level is made, fragments with a smaller |c| are dropped
+  uint keepNear, keepFar;  // whether fragments in front of and behind the focal plane are kept, 0 or 1
+  uint padding0, padding1;
+};
+
+struct CompactPush {
+  ivec2 size;            // px, of the lists
+  float vergenceScale;   // V = scale · z + offset
+  float vergenceOffset;  // 1/m
+  uint room;             // fragments that the pool holds
+  uint reservedNodes;
+};
+
+struct FilterPush {
+  uint level;           // to be made, ≥ 1, from the one before
+  uint room;            // fragments that the pool holds
+  float cocScale;       // K, px·m
+  float focusVergence;  // 1/m
+  float epsilon;        // fragments are merged over this share of the blur that they are for
+};
+
+struct MultilayerAccumulatePush {
+  ivec2 size;           // px, of the picture
+  uint levelCount;
+  uint room;
+  float cocScale;       // K, px·m
+  float focusVergence;  // 1/m
+  float epsilon;
+  float linkDistance;   // fragments with no wider gap, as a share of their blur, are of one surface
+  float red, green, blue;  // background
+  uint nearLevels, farLevels;  // levels that show in front of and behind the focal plane
+};
+
+SHARED_NAMESPACE_END
+
+#endif  // LENSGRAPH_SHARED_MULTILAYER_FILTERING_H
