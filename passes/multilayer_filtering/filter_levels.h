@@ -1,8 +1,9 @@
 // Which levels of filtering a picture needs, and where their cells lie (Selgrad, Reintges, Penk, Wagner, Stamminger 2015,
 // §5.2 and §6.1). Pure.
 //
-// Level L is filtered by a box of 2^L px. The first `mipSteps` levels halve the resolution (mip map), further ones keep it
-// and take taps 2^(L-1) px apart (filter stack): the Y-map of §5.2.
+// Level L is filtered by a box of 2^L of the lists' pixels. The first levels halve the resolution (mip map), further ones
+// keep it and take taps 2^(L-1) apart (filter stack): the Y-map of §5.2. With antialiasing (ours) lists are of finer pixels
+// than the picture's, the first mip steps lead to those, and that level is the finest to show.
 #pragma once
 
 #include <vulkan/vulkan_core.h>
@@ -24,7 +25,8 @@ struct LevelRequest {
   VkExtent2D extent = {1, 1};  ///< px, of the picture.
   double nearCoc = 0.0;        ///< px, ≥ 0: largest |c| of anything in front of the focal plane.
   double farCoc = 0.0;         ///< px, ≥ 0: largest |c| of anything behind it, the background included.
-  int mipSteps = 1;
+  int subpixelSteps = 0;  ///< s: lists have 2^s × 2^s pixels for each of the picture's.
+  int mipSteps = 1;       ///< From the picture's resolution on.
   int stackSteps = -1;  ///< -1: as many as the blur asks for; of more than kMostStackSteps, the rest become mip steps.
   double border = 0.0;  ///< px: lists exist this far beyond the picture. Beyond, the border's repeat.
   double apertureMoment = 0.25;  ///< Variance of the aperture along an axis, in |c|²; 1/4 for a disc.
@@ -39,11 +41,12 @@ inline constexpr int kMostStackSteps = 6;
 struct LevelPlan {
   std::vector<shared::FilterLevel> levels;  ///< At least one.
   uint32_t listCount = 0;                   ///< Of all levels, each with one more that marks its end.
+  uint32_t finestShown = 0;                 ///< Level of the picture's resolution.
   uint32_t nearLevels = 0, farLevels = 0;   ///< Coarsest level that shows in front of and behind the focal plane.
 };
 
-/// |c| in px at which level L shows alone; 0 for level 0 by moments. Increases with L.
-double shownRadius(const LevelRequest& request, int mipSteps, int level);
+/// |c| in px at which the filter of 2^step px shows alone; 0 for step 0 by moments. Increases.
+double shownRadius(const LevelRequest& request, int mipSteps, int step);
 
 LevelPlan planLevels(const LevelRequest& request);
 

@@ -38,6 +38,7 @@ FramePlan framePlan(const DofInputs& inputs, const Parameters& parameters) {
   request.extent = inputs.extent;
   request.nearCoc = std::max(-blur(inputs.scene->nearestVergence), 0.0);
   request.farCoc = std::max(blur(inputs.scene->farthestVergence), 0.0);
+  request.subpixelSteps = static_cast<int>(parameters.antialiasing);
   request.mipSteps = parameters.mipSteps;
   request.stackSteps = parameters.stackSteps;
   request.border = std::min(parameters.border * std::max(request.nearCoc, request.farCoc),
@@ -74,6 +75,9 @@ std::span<const Field<Parameters>> fields() {
       choice<&Parameters::levelMatch, kLevelMatchNames>(
           "levelMatch", "Which filter stands for a circle of confusion: that of equal second moment, or that whose side is "
                         "the diameter (the paper)."),
+      choice<&Parameters::antialiasing, kAntialiasingNames>(
+          "antialiasing", "Points of a pixel at which surfaces are seen: 2x2 and 4x4 collect 4 and 16 times as much and "
+                          "smooth edges in focus."),
       toggle<&Parameters::interpolateLevels>("interpolateLevels", "Blend between levels; off shows steps."),
       toggle<&Parameters::bilinear>("bilinear", "Look up four cells of a level; off is faster and blocky."),
       toggle<&Parameters::truncation>("truncation",
@@ -97,7 +101,10 @@ uint32_t frameCount(const Parameters&, const DofInputs&) {
 }
 
 DofOutputs declare(rendergraph::Graph& graph, const DofInputs& inputs, const Parameters& parameters) {
-  if (inputs.lens.cocScale == 0.0f) return pinhole::declare(graph, inputs, {});
+  if (inputs.lens.cocScale == 0.0f) {
+    return pinhole::declare(graph, inputs, {.pixelSamples = 1 << (2 * static_cast<int>(parameters.antialiasing)),
+                                            .viewsPerFrame = 64});
+  }
   const FramePlan plan = framePlan(inputs, parameters);
   DofOutputs out;
   out.statistics = declareStatistics(graph, "multilayer_filtering");

@@ -16,6 +16,7 @@
 #include "spirv/multilayer_filtering/compact_comp.h"
 #include "spirv/multilayer_filtering/count_comp.h"
 #include "spirv/multilayer_filtering/merge_comp.h"
+#include "spirv/multilayer_filtering/shown_comp.h"
 #include "spirv/multilayer_filtering/sort_comp.h"
 
 namespace passes::multilayer_filtering {
@@ -35,6 +36,7 @@ const ComputeProgram kSort{"multilayer_filtering.sort", multilayer_filtering_sor
 const ComputeProgram kCompact{"multilayer_filtering.compact", multilayer_filtering_compact_comp};
 const ComputeProgram kCount{"multilayer_filtering.count", multilayer_filtering_count_comp};
 const ComputeProgram kMerge{"multilayer_filtering.merge", multilayer_filtering_merge_comp};
+const ComputeProgram kShown{"multilayer_filtering.shown", multilayer_filtering_shown_comp};
 const ComputeProgram kAccumulate{"multilayer_filtering.accumulate", multilayer_filtering_accumulate_comp};
 
 std::string named(const char* name) {
@@ -50,17 +52,19 @@ uint32_t room(double perPixel, VkExtent2D extent, uint64_t most) {
   return static_cast<uint32_t>(std::clamp(wanted, 1.0, static_cast<double>(most)));
 }
 
-/// The view of the pixels' lists: that of the pinhole, on a picture that is larger all around.
+/// The view of the lists' pixels: that of the pinhole, of pixels that may be finer, on a picture that is larger all around.
 shared::ViewConstants listView(const FramePlan& plan) {
   DofInputs wider = plan.inputs;
   wider.extent = plan.listExtent();
+  const uint32_t steps = plan.levels.finestShown;
+  wider.projection.pixelsPerTangent *= static_cast<float>(1u << steps);
   const auto shift = [](int32_t first, uint32_t inner, uint32_t outer) {
     return static_cast<float>(-first) + 0.5f * static_cast<float>(inner) - 0.5f * static_cast<float>(outer);
   };
   const auto& first = plan.levels.levels.front().first;
   return viewFromLens(wider, {0.0f, 0.0f},
-                      {shift(first.x, plan.inputs.extent.width, wider.extent.width),
-                       shift(first.y, plan.inputs.extent.height, wider.extent.height)});
+                      {shift(first.x, plan.inputs.extent.width << steps, wider.extent.width),
+                       shift(first.y, plan.inputs.extent.height << steps, wider.extent.height)});
 }
 
 VkExtent2D extentOf(const shared::FilterLevel& level) {
@@ -245,19 +249,50 @@ void declareFilter(Graph& graph, const FramePlan& plan, uint32_t level, Fragment
   });
 }
 
+namespace {
+
+/// Which levels each tile of the picture shows.
+Buffer declareShown(Graph& graph, const FramePlan& plan, const FragmentLists& lists, rendergraph::Groups tiles) {
+  Buffer shown = graph.createBuffer(named("shown_levels"), {.size = tiles.x * tiles.y * sizeof(uint32_t)});
+  auto pass = graph.addPass(named("shown"), PassKind::compute);
+  for (const Buffer& buffer : {lists.levels, lists.lists, lists.vergences}) pass.read(buffer, Usage::storage);
+  shown = pass.write(shown, Usage::storage);
+  const VkExtent2D extent = {tiles.x, tiles.y};
+  const shared::ShownPush push{.tiles = signedExtent(extent),
+                               .finestShown = plan.levels.finestShown,
+                               .levelCount = static_cast<uint32_t>(plan.levels.levels.size()),
+                               .room = plan.listRoom(),
+                               .cocScale = plan.inputs.lens.cocScale,
+                               .focusVergence = plan.inputs.lens.focusVergence};
+  pass.record([lists, shown, push, extent](PassContext& context) {
+    const std::array bindings = {rendergraph::storage(lists.levels), rendergraph::storage(lists.lists),
+                                 rendergraph::storage(lists.vergences), rendergraph::storage(shown)};
+    context.dispatch({.program = kShown,
+                      .bindings = bindings,
+                      .pushConstants = rendergraph::bytesOf(push),
+                      .groups = rendergraph::groupsFor(extent, shared::kMultilayerTile)});
+  });
+  return shown;
+}
+
+}  // namespace
+
 Image declareAccumulate(Graph& graph, const FramePlan& plan, const FragmentLists& lists, Buffer& statistics) {
   const auto& [inputs, parameters] = std::pair(plan.inputs, plan.parameters);
   Image picture = graph.createImage(
       named("color"),
       {.format = kViewColorFormat, .width = inputs.extent.width, .height = inputs.extent.height});
+  const auto tiles = rendergraph::groupsFor(inputs.extent, shared::kMultilayerTile);
+  const Buffer shown = declareShown(graph, plan, lists, tiles);
   auto pass = graph.addPass(named("accumulate"), PassKind::compute);
-  for (const Buffer& buffer : {lists.levels, lists.lists, lists.vergences, lists.colors}) {
+  for (const Buffer& buffer : {lists.levels, lists.lists, lists.vergences, lists.colors, shown}) {
     pass.read(buffer, Usage::storage);
   }
   if (plan.hasCoverage()) pass.read(lists.coverages, Usage::storage);
   picture = pass.write(picture, Usage::storage);
   statistics = pass.modify(statistics, Usage::storage);
   const shared::MultilayerAccumulatePush push{.size = signedExtent(inputs.extent),
+                                              .tileColumns = tiles.x,
                                               .levelCount = static_cast<uint32_t>(plan.levels.levels.size()),
                                               .room = plan.listRoom(),
                                               .cocScale = inputs.lens.cocScale,
@@ -267,6 +302,7 @@ Image declareAccumulate(Graph& graph, const FramePlan& plan, const FragmentLists
                                               .red = inputs.background[0],
                                               .green = inputs.background[1],
                                               .blue = inputs.background[2],
+                                              .finestShown = plan.levels.finestShown,
                                               .nearLevels = plan.levels.nearLevels,
                                               .farLevels = plan.levels.farLevels};
   // The paper's borders are where a level begins to show; ours, half of the way to where it shows alone.
@@ -274,16 +310,16 @@ Image declareAccumulate(Graph& graph, const FramePlan& plan, const FragmentLists
   const std::array<uint32_t, 5> specialization = {
       plan.hasCoverage() ? 1u : 0u, parameters.interpolateLevels ? 1u : 0u, parameters.bilinear ? 1u : 0u,
       parameters.blend == Blend::additive ? 1u : 0u, std::bit_cast<uint32_t>(stepAt)};
-  pass.record([lists, picture, statistics, push, specialization, extent = inputs.extent](PassContext& context) {
+  pass.record([lists, shown, picture, statistics, push, specialization, tiles](PassContext& context) {
     const std::array bindings = {rendergraph::storage(lists.levels),    rendergraph::storage(lists.lists),
                                  rendergraph::storage(lists.vergences), rendergraph::storage(lists.colors),
-                                 rendergraph::storage(coveragesOr(lists)), rendergraph::storage(picture),
+                                 rendergraph::storage(coveragesOr(lists)), rendergraph::storage(shown), rendergraph::storage(picture),
                                  rendergraph::storage(statistics)};
     context.dispatch({.program = kAccumulate,
                       .bindings = bindings,
                       .pushConstants = rendergraph::bytesOf(push),
                       .specialization = specialization,
-                      .groups = rendergraph::groupsFor(extent, shared::kMultilayerTile)});
+                      .groups = tiles});
   });
   return picture;
 }

@@ -15,7 +15,7 @@ layout(constant_id = 0) const bool kHasCoverage = false;
 layout(constant_id = 1) const bool kInterpolateLevels = true;
 layout(constant_id = 2) const bool kBilinear = true;
 layout(constant_id = 3) const bool kAdditive = false;
-layout(constant_id = 4) const float kStepAt = 0.5;  // without interpolation: weight from which a level shows alone
+layout(constant_id = 4) const float kStepAt = 0.5;  // without interpolation: share from which the coarser level shows
 
 layout(local_size_x = kMultilayerTile, local_size_y = kMultilayerTile) in;
 layout(std430, set = 0, binding = 0) readonly buffer Levels { FilterLevel levels[]; };
@@ -23,107 +23,99 @@ layout(std430, set = 0, binding = 1) readonly buffer Lists { uint lists[]; };
 layout(std430, set = 0, binding = 2) readonly buffer Vergences { float vergences[]; };
 layout(std430, set = 0, binding = 3) readonly buffer Colors { uvec2 colors[]; };
 layout(std430, set = 0, binding = 4) readonly buffer Coverages { float coverages[]; };
-layout(set = 0, binding = 5, rgba32f) writeonly uniform image2D picture;
-layout(std430, set = 0, binding = 6) buffer Statistics { FrameStatistics statistics; };
+layout(std430, set = 0, binding = 5) readonly buffer Shown { uint shown[]; };
+layout(set = 0, binding = 6, rgba32f) writeonly uniform image2D picture;
+layout(std430, set = 0, binding = 7) buffer Statistics { FrameStatistics statistics; };
 layout(push_constant) uniform Push { MultilayerAccumulatePush push; };
 
-// The cells of one level that a pixel looks up.
+// The four cells of one level that a pixel looks up. Vectors, not arrays, so that they stay in registers.
 struct Lookup {
-  uint level;
-  uint cursor[4], end[4];
-  float head[4];     // vergence at the cursor; -1 at the end
-  float weight[4];   // bilinear
-  Layer own[4];      // what this list has added to the surface
+  uvec4 cursor, end;
+  vec4 head;              // vergence at the cursor; -1 at the end
+  vec4 weight;            // bilinear
+  vec4 coverage, alpha;   // what each list has added to the surface at hand
+};
+
+const Lookup kClosed =
+    Lookup(uvec4(0u), uvec4(0u), vec4(-1.0), vec4(0.0), vec4(0.0), vec4(0.0));
+
+// An interval of vergence in which two levels show.
+struct Interval {
+  float until;         // vergence where it ends
+  float fineSquare;    // |c|², px²: the finer level shows alone …
+  float perSquare;     // … and the coarser, 1/perSquare farther
+  bool keptIsCoarse;   // of the two: the level that shows already, or the one that is opened here
+  bool keptIsEven;     // the number of its level
 };
 
 float signedRadius(float vergence) { return push.cocScale * (push.focusVergence - vergence); }
 float vergenceOf(float c) { return push.focusVergence - c / push.cocScale; }
+float blurOf(float vergence) { return max(abs(signedRadius(vergence)), 0.5); }
+float nearestOf(Lookup at) { return max(max(at.head.x, at.head.y), max(at.head.z, at.head.w)); }
 
-// How much a level shows of a blur radius.
-float levelWeight(uint level, float c) {
-  const float square = c * c;
-  float weight = 1.0;
-  if (square < levels[level].own) {
-    const float inner = levels[level].inner;
-    weight = clamp((square - inner) / (levels[level].own - inner), 0.0, 1.0);
-    return kInterpolateLevels ? weight : (weight > kStepAt ? 1.0 : 0.0);
-  }
-  weight = clamp((square - levels[level].own) / (levels[level].outer - levels[level].own), 0.0, 1.0);
-  return kInterpolateLevels ? 1.0 - weight : (weight > kStepAt ? 0.0 : 1.0);
-}
-
-void moveTo(inout Lookup at, int k, uint cursor) {
-  at.cursor[k] = cursor;
-  at.head[k] = cursor < at.end[k] ? vergences[cursor] : -1.0;
-}
-
-void closeLookup(inout Lookup at) {
-  for (int k = 0; k < 4; ++k) {
-    at.end[k] = 0u;
-    at.head[k] = -1.0;
-    at.weight[k] = 0.0;
-    at.own[k] = kNoLayer;
+// Opens one list at its first fragment no nearer than a vergence.
+void openList(FilterLevel level, ivec2 cell, float nearest, out uint cursor, out uint end, out float head) {
+  const ivec2 inside = clamp(cell - level.first, ivec2(0), level.size - 1);
+  const uint list = level.firstList + uint(inside.y * level.size.x + inside.x);
+  cursor = min(lists[list], push.room);
+  end = min(lists[list + 1u], push.room);
+  head = -1.0;
+  for (; cursor < end; ++cursor) {
+    head = vergences[cursor];
+    if (head <= nearest) return;
+    head = -1.0;
   }
 }
 
-// Opens a level's lists at fragments no nearer than a vergence.
-void openLookup(out Lookup at, uint level, vec2 position, float nearest) {
-  closeLookup(at);
-  at.level = level;
-  const vec2 cell = (position - levels[level].centre) / levels[level].cellSize;
-  const ivec2 base = ivec2(kBilinear ? floor(cell) : floor(cell + 0.5));
-  const vec2 fraction = kBilinear && level > 0u ? cell - vec2(base) : vec2(0.0);
-  const ivec2 last = levels[level].size - 1;
-  for (int k = 0; k < 4; ++k) {
-    const ivec2 corner = ivec2(k & 1, k >> 1);
-    const vec2 weights = mix(1.0 - fraction, fraction, vec2(corner));
-    at.weight[k] = weights.x * weights.y;
-    if (at.weight[k] == 0.0) continue;
-    const ivec2 inside = clamp(base + corner - levels[level].first, ivec2(0), last);
-    const uint list = levels[level].firstList + uint(inside.y * levels[level].size.x + inside.x);
-    at.end[k] = min(lists[list + 1u], push.room);
-    moveTo(at, k, min(lists[list], push.room));
-    while (at.head[k] > nearest) moveTo(at, k, at.cursor[k] + 1u);
+Lookup opened(uint number, vec2 position, float nearest) {
+  const FilterLevel level = levels[number];
+  const vec2 place = (position - level.centre) / level.cellSize;
+  const ivec2 cell = ivec2(kBilinear ? floor(place) : floor(place + 0.5));
+  Lookup at = kClosed;
+  openList(level, cell, nearest, at.cursor.x, at.end.x, at.head.x);
+  if (!kBilinear || number == push.finestShown) {
+    at.weight = vec4(1.0, 0.0, 0.0, 0.0);
+    return at;
   }
+  const vec2 f = place - vec2(cell);
+  at.weight = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
+  openList(level, cell + ivec2(1, 0), nearest, at.cursor.y, at.end.y, at.head.y);
+  openList(level, cell + ivec2(0, 1), nearest, at.cursor.z, at.end.z, at.head.z);
+  openList(level, cell + ivec2(1, 1), nearest, at.cursor.w, at.end.w, at.head.w);
+  return at;
 }
 
-float nearestOf(Lookup at) { return max(max(at.head[0], at.head[1]), max(at.head[2], at.head[3])); }
-
-// What has been gathered of the surface at hand.
+// What has been gathered of the surface at hand, each fragment with its share: of its level, of its cell, and what is seen
+// of it behind others of its list.
 Layer surface;
-vec2 used;      // of two levels, even and odd: Σ weight · coverage …
-vec2 whole;     // … and Σ coverage: used / whole is how much of the level was shown
-float farthest; // vergence of its last fragment
+// Of levels of even and of odd number: what was gathered, and what would have been with the level alone. By number and not
+// by which of the two is finer, since that changes from interval to interval, and surfaces span several.
+vec2 gathered, whole;
+float farthest;  // vergence of its last fragment
 
 // The picture so far.
 vec3 color;
-Layer before;  // of all surfaces, for additive blending
+Layer before;  // of all surfaces; additive blending only
 float transmittance;
-
-Layer fragmentAt(uint i) {
-  const vec2 redGreen = unpackHalf2x16(colors[i].x), blueAlpha = unpackHalf2x16(colors[i].y);
-  return Layer(vec3(redGreen, blueAlpha.x), blueAlpha.y, kHasCoverage ? coverages[i] : blueAlpha.y);
-}
 
 void startSurface() {
   surface = kNoLayer;
-  used = vec2(0.0);
+  gathered = vec2(0.0);
   whole = vec2(0.0);
 }
 
-// Levels' weights sum to 1 for one depth, but the levels' means of a slanted surface are not equally far: what was shown of
-// both is brought to 1, so that what is opaque stays so. Only by a little: a surface that is faint for being on the way out
-// must not come back.
+bool isStarted() { return whole.x + whole.y > 0.0; }
+
+// Levels' shares sum to 1 at any one depth, but the levels' means of a slanted surface are not equally far: the sum of what
+// was shown of both is brought to 1, so that what is opaque stays so. Only by a little: a surface that is faint for being on
+// the way out must not come back.
 void finishSurface() {
-  const vec2 shares = mix(used / max(whole, vec2(1e-9)), vec2(0.0), lessThanEqual(whole, vec2(0.0)));
-  const float scale = 1.0 / clamp(shares.x + shares.y, 0.6, 1.6);
-  surface.color *= scale;
-  surface.alpha = surface.alpha * scale;
-  surface.coverage = surface.coverage * scale;
-  const float excess = surface.alpha > 1.0 ? 1.0 / surface.alpha : 1.0;
-  surface.color *= excess;
-  surface.alpha *= excess;
-  surface.coverage = min(surface.coverage, 1.0);
+  const vec2 shown = mix(gathered / max(whole, vec2(1e-9)), vec2(0.0), lessThanEqual(whole, vec2(0.0)));
+  const float scale = 1.0 / clamp(shown.x + shown.y, 0.6, 1.6);
+  const float limited = min(scale, 1.0 / max(surface.alpha, 1e-9));  // Alpha is at most 1.
+  surface.color *= limited;
+  surface.alpha *= limited;
+  surface.coverage = min(surface.coverage * scale, 1.0);
   if (kAdditive) {
     addBehind(before, surface);
     color = before.color;
@@ -135,81 +127,94 @@ void finishSurface() {
   startSurface();
 }
 
-// Adds a level's fragments down to a vergence.
-void addDownTo(inout Lookup at, float limit) {
-  const vec2 parity = (at.level & 1u) == 0u ? vec2(1.0, 0.0) : vec2(0.0, 1.0);
-  for (int k = 0; k < 4; ++k) {
-    while (at.head[k] >= limit && at.head[k] >= 0.0) {
-      const Layer fragment = fragmentAt(at.cursor[k]);
-      const float weight = levelWeight(at.level, signedRadius(at.head[k]));
-      const float seen = addBehind(at.own[k], fragment) * at.weight[k];
-      surface.color += weight * seen * fragment.color;
-      surface.alpha += weight * seen * fragment.alpha;
-      surface.coverage += weight * seen * fragment.coverage;
-      used += parity * (weight * at.weight[k] * fragment.coverage);
-      whole += parity * (at.weight[k] * fragment.coverage);
-      farthest = min(farthest, at.head[k]);
-      moveTo(at, k, at.cursor[k] + 1u);
-    }
+// Adds one list's fragments down to a vergence.
+void addFrom(inout uint cursor, uint end, inout float head, float cell, inout float coverage, inout float alpha,
+             float limit, Interval interval, bool isCoarse, bool isEven) {
+  while (head >= limit && head >= 0.0) {
+    const vec2 redGreen = unpackHalf2x16(colors[cursor].x), blueAlpha = unpackHalf2x16(colors[cursor].y);
+    const float c = signedRadius(head);
+    float share = clamp((c * c - interval.fineSquare) * interval.perSquare, 0.0, 1.0);
+    if (!kInterpolateLevels) share = share > kStepAt ? 1.0 : 0.0;
+    if (!isCoarse) share = 1.0 - share;
+
+    Layer own = Layer(vec3(0.0), kHasCoverage ? alpha : coverage, coverage);
+    const Layer fragment =
+        Layer(vec3(redGreen, blueAlpha.x), blueAlpha.y, kHasCoverage ? coverages[cursor] : blueAlpha.y);
+    const float seen = share * cell * addBehind(own, fragment);
+    coverage = own.coverage;
+    alpha = own.alpha;
+    surface.color += seen * fragment.color;
+    surface.alpha += seen * fragment.alpha;
+    surface.coverage += seen * fragment.coverage;
+    const vec2 level = isEven ? vec2(1.0, 0.0) : vec2(0.0, 1.0);
+    whole += level * (cell * fragment.coverage);
+    gathered += level * (share * cell * fragment.coverage);
+    farthest = min(farthest, head);
+    ++cursor;
+    head = cursor < end ? vergences[cursor] : -1.0;
   }
 }
 
-void forgetOwn(inout Lookup at) {
-  for (int k = 0; k < 4; ++k) at.own[k] = kNoLayer;
+void addLevel(inout Lookup at, float limit, Interval interval, bool isCoarse, bool isEven) {
+  addFrom(at.cursor.x, at.end.x, at.head.x, at.weight.x, at.coverage.x, at.alpha.x, limit, interval, isCoarse, isEven);
+  addFrom(at.cursor.y, at.end.y, at.head.y, at.weight.y, at.coverage.y, at.alpha.y, limit, interval, isCoarse, isEven);
+  addFrom(at.cursor.z, at.end.z, at.head.z, at.weight.z, at.coverage.z, at.alpha.z, limit, interval, isCoarse, isEven);
+  addFrom(at.cursor.w, at.end.w, at.head.w, at.weight.w, at.coverage.w, at.alpha.w, limit, interval, isCoarse, isEven);
 }
 
-float blurOf(float vergence) { return max(abs(signedRadius(vergence)), 0.5); }
-
-// Composites the fragments of two levels down to a vergence.
-void walk(inout Lookup a, inout Lookup b, float until) {
+// Composites what two levels show in an interval.
+void walk(inout Lookup kept, inout Lookup fresh, Interval interval) {
   for (;;) {
-    const float nearest = max(nearestOf(a), nearestOf(b));
-    if (nearest < 0.0 || nearest < until) return;
-    const bool isOpen = whole.x + whole.y > 0.0;
-    if (isOpen && farthest - nearest > push.linkDistance * blurOf(nearest) / push.cocScale) {
+    const float nearest = max(nearestOf(kept), nearestOf(fresh));
+    if (nearest < 0.0 || nearest < interval.until) return;
+    if (isStarted() && farthest - nearest > push.linkDistance * blurOf(nearest) / push.cocScale) {
       finishSurface();
-      forgetOwn(a);
-      forgetOwn(b);
-      if (transmittance < 1e-4) return;
+      kept.coverage = kept.alpha = fresh.coverage = fresh.alpha = vec4(0.0);
+      if (transmittance < kOpaque) return;
     }
-    if (!(whole.x + whole.y > 0.0)) farthest = nearest;
-    const float limit = max(nearest - push.epsilon * blurOf(nearest) / push.cocScale, until);
-    addDownTo(a, limit);
-    addDownTo(b, limit);
+    if (!isStarted()) farthest = nearest;
+    const float limit = max(nearest - push.epsilon * blurOf(nearest) / push.cocScale, interval.until);
+    addLevel(kept, limit, interval, interval.keptIsCoarse, interval.keptIsEven);
+    addLevel(fresh, limit, interval, !interval.keptIsCoarse, !interval.keptIsEven);
   }
 }
 
 void main() {
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(pixel, push.size))) return;
+  const uint shownLevels = shown[gl_WorkGroupID.y * push.tileColumns + gl_WorkGroupID.x];
   const vec2 position = vec2(pixel) + 0.5;
   color = vec3(0.0);
   before = kNoLayer;
   transmittance = 1.0;
   startSurface();
 
-  Lookup fine, coarse;
-  closeLookup(fine);
-  fine.level = 0u;
-  const int top = int(push.levelCount) - 1;
-  for (int i = int(push.nearLevels); i >= 0 && transmittance >= 1e-4; --i) {
-    coarse = fine;
-    const bool isTop = i == top;
-    openLookup(fine, uint(i), position, isTop ? 3.4e38 : vergenceOf(-sqrt(levels[i].outer)));
-    walk(coarse, fine, vergenceOf(-sqrt(levels[i].own)));
-  }
-  for (int i = 0; i <= int(push.farLevels) && transmittance >= 1e-4; ++i) {
-    if (i < top) {
-      openLookup(coarse, uint(i + 1), position, vergenceOf(sqrt(levels[i].own)));
-    } else {
-      closeLookup(coarse);
-    }
-    walk(fine, coarse, i < top ? vergenceOf(sqrt(levels[i].outer)) : 0.0);
-    fine = coarse;
+  // Levels are opened one after another: in front of the focal plane down to the finest, behind it up from the next.
+  Lookup kept = kClosed;
+  const uint nearCount = push.nearLevels - push.finestShown + 1u, farCount = push.farLevels - push.finestShown;
+  const uint count = nearCount + farCount;
+  for (uint i = 0u; i < count && transmittance >= kOpaque; ++i) {
+    const bool isFar = i >= nearCount;
+    const uint level = isFar ? push.finestShown + 1u + i - nearCount : push.nearLevels - i;
+    const uint fine = isFar ? level - 1u : level;
+    const float own = levels[level].own;
+    Interval interval;
+    interval.fineSquare = levels[fine].own;
+    interval.perSquare = 1.0 / (levels[fine].outer - interval.fineSquare);
+    interval.keptIsCoarse = !isFar;
+    interval.keptIsEven = (level & 1u) != 0u;
+    const float border = sqrt(own);
+    interval.until = i + 1u == count ? 0.0 : vergenceOf(isFar ? border : -border);
+    const float start = isFar ? vergenceOf(sqrt(interval.fineSquare)) : vergenceOf(-sqrt(levels[level].outer));
+    const bool hasAny = (shownLevels & ((1u << level) | (1u << (level + kShownFarShift)))) != 0u;
+    Lookup fresh = kClosed;
+    if (hasAny) fresh = opened(level, position, start);
+    walk(kept, fresh, interval);
+    kept = fresh;
   }
   finishSurface();
   if (pixel == ivec2(0)) {
-    const FilterLevel level = levels[top];
+    const FilterLevel level = levels[push.levelCount - 1u];
     const uint asked = lists[level.firstList + uint(level.size.x * level.size.y)];
     statistics.listFragments = asked;
     statistics.listFragmentsDropped = asked > push.room ? asked - push.room : 0u;

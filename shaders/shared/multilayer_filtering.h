@@ -13,13 +13,16 @@ SHARED_CONST uint kListLengthMost = 64u;     // fragments a pixel that sorting c
 // Visits of nodes and shifts that sorting one list may take; devices may end loops after 65 535 iterations, silently.
 SHARED_CONST uint kSortBudget = 60000u;
 
-// One level of the hierarchy: a window of cells, each with a list of fragments filtered by a box of 2^level px.
-// Cell (0, 0)'s centre lies at 2^level / 2 px from the picture's upper left corner, in both axes, at every level.
+SHARED_CONST uint kShownFarShift = 16u;      // bits of `shown`: levels in front of the focal plane, then behind it
+SHARED_CONST float kOpaque = 1e-4f;          // transmittance below which nothing more is seen
+
+// One level of the hierarchy: a window of cells, each with a list of fragments filtered by a box. Cell (0, 0)'s centre lies
+// at half the box's width from the picture's upper left corner, in both axes, at every level.
 struct FilterLevel {
   ivec2 first;      // index of the window's upper left cell; negative beyond the picture
   ivec2 size;       // cells
   float cellSize;   // px from cell to cell
-  float centre;     // px, of cell 0
+  float centre;     // px, of cell 0; half the filter's width
   uint firstList;   // index of the first cell's list among all lists
   int tapDistance;  // cells of the level before, from tap to tap; 0: mip step, taps at twice the index
   // Squares of |c|, px²: below `inner` and above `outer` the level does not show, at `own` it shows alone.
@@ -45,8 +48,18 @@ struct FilterPush {
   float epsilon;        // fragments are merged over this share of the blur that they are for
 };
 
+struct ShownPush {
+  ivec2 tiles;
+  uint finestShown;
+  uint levelCount;
+  uint room;
+  float cocScale;       // K, px·m
+  float focusVergence;  // 1/m
+};
+
 struct MultilayerAccumulatePush {
   ivec2 size;           // px, of the picture
+  uint tileColumns;
   uint levelCount;
   uint room;
   float cocScale;       // K, px·m
@@ -54,7 +67,8 @@ struct MultilayerAccumulatePush {
   float epsilon;
   float linkDistance;   // fragments with no wider gap, as a share of their blur, are of one surface
   float red, green, blue;  // background
-  uint nearLevels, farLevels;  // levels that show in front of and behind the focal plane
+  uint finestShown;            // level of the picture's resolution
+  uint nearLevels, farLevels;  // coarsest levels that show in front of and behind the focal plane
 };
 
 SHARED_NAMESPACE_END
