@@ -8,6 +8,9 @@ namespace passes::multilayer_filtering {
 namespace {
 
 constexpr int kTopLevel = static_cast<int>(shared::kMaxFilterLevels) - 1;
+/// Of |c|: a level keeps this much beyond what it shows, so that a slanted surface that it begins to show is whole. Enough
+/// for slopes of 0.2 px of |c| per px.
+constexpr double kDropMargin = 0.5;
 constexpr double kPixelVariance = 1.0 / 12.0;  // px²: of the box over a pixel that a picture is expected to have
 
 /// Indices from first to last, both included.
@@ -156,7 +159,8 @@ LevelPlan planLevels(const LevelRequest& request) {
       level.own = squared(i);
       level.outer = i < steps.top() ? squared(i + 1) : std::numeric_limits<float>::max();
     }
-    level.keepNear = level.keepFar = 1;
+    level.lowest = -std::numeric_limits<float>::max();
+    level.highest = std::numeric_limits<float>::max();
     plan.listCount += static_cast<uint32_t>(level.size.x) * static_cast<uint32_t>(level.size.y) + 1;
     plan.levels.push_back(level);
   }
@@ -165,9 +169,11 @@ LevelPlan planLevels(const LevelRequest& request) {
   if (!request.truncate) return plan;
   for (std::size_t i = plan.finestShown + 1; i < plan.levels.size(); ++i) {
     shared::FilterLevel& level = plan.levels[i];
-    level.dropWithin = std::sqrt(level.inner);
-    level.keepNear = i <= plan.nearLevels ? 1 : 0;
-    level.keepFar = i <= plan.farLevels ? 1 : 0;
+    level.dropWithin = static_cast<float>(1.0 - kDropMargin) * std::sqrt(level.inner);
+    // What lies in focus but for rounding belongs to both sides.
+    const float inFocus = std::max(level.dropWithin, 0.5f);
+    if (i > plan.nearLevels) level.lowest = -inFocus;
+    if (i > plan.farLevels) level.highest = inFocus;
   }
   return plan;
 }

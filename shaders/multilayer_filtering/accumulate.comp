@@ -42,15 +42,14 @@ const Lookup kClosed =
 // An interval of vergence in which two levels show.
 struct Interval {
   float until;         // vergence where it ends
+  float leastBlur;     // px: fragments are told apart as if their blur were no less, for cells are as far apart
   float fineSquare;    // |c|², px²: the finer level shows alone …
   float perSquare;     // … and the coarser, 1/perSquare farther
   bool keptIsCoarse;   // of the two: the level that shows already, or the one that is opened here
-  bool keptIsEven;     // the number of its level
 };
 
 float signedRadius(float vergence) { return push.cocScale * (push.focusVergence - vergence); }
 float vergenceOf(float c) { return push.focusVergence - c / push.cocScale; }
-float blurOf(float vergence) { return max(abs(signedRadius(vergence)), 0.5); }
 float nearestOf(Lookup at) { return max(max(at.head.x, at.head.y), max(at.head.z, at.head.w)); }
 
 // Opens one list at its first fragment no nearer than a vergence.
@@ -62,7 +61,7 @@ void openList(FilterLevel level, ivec2 cell, float nearest, out uint cursor, out
   head = -1.0;
   for (; cursor < end; ++cursor) {
     head = vergences[cursor];
-    if (head <= nearest) return;
+    if (head < nearest) return;
     head = -1.0;
   }
 }
@@ -85,37 +84,20 @@ Lookup opened(uint number, vec2 position, float nearest) {
   return at;
 }
 
-// What has been gathered of the surface at hand, each fragment with its share: of its level, of its cell, and what is seen
-// of it behind others of its list.
+// What has been gathered of the surface at hand, and the vergence of its last fragment.
 Layer surface;
-// Of levels of even and of odd number: what was gathered, and what would have been with the level alone. By number and not
-// by which of the two is finer, since that changes from interval to interval, and surfaces span several.
-vec2 gathered, whole;
-float farthest;  // vergence of its last fragment
+float farthest;
 
 // The picture so far.
 vec3 color;
 Layer before;  // of all surfaces; additive blending only
 float transmittance;
 
-void startSurface() {
-  surface = kNoLayer;
-  gathered = vec2(0.0);
-  whole = vec2(0.0);
-}
-
-bool isStarted() { return whole.x + whole.y > 0.0; }
-
-// Levels' shares sum to 1 at any one depth, but the levels' means of a slanted surface are not equally far: the sum of what
-// was shown of both is brought to 1, so that what is opaque stays so. Only by a little: a surface that is faint for being on
-// the way out must not come back.
 void finishSurface() {
-  const vec2 shown = mix(gathered / max(whole, vec2(1e-9)), vec2(0.0), lessThanEqual(whole, vec2(0.0)));
-  const float scale = 1.0 / clamp(shown.x + shown.y, 0.6, 1.6);
-  const float limited = min(scale, 1.0 / max(surface.alpha, 1e-9));  // Alpha is at most 1.
-  surface.color *= limited;
-  surface.alpha *= limited;
-  surface.coverage = min(surface.coverage * scale, 1.0);
+  const float excess = 1.0 / max(surface.alpha, 1.0);
+  surface.color *= excess;
+  surface.alpha *= excess;
+  surface.coverage = min(surface.coverage, 1.0);
   if (kAdditive) {
     addBehind(before, surface);
     color = before.color;
@@ -124,59 +106,82 @@ void finishSurface() {
     color += transmittance * surface.color;
     transmittance *= 1.0 - surface.alpha;
   }
-  startSurface();
+  surface = kNoLayer;
 }
+
+// Fragments of one level, of one surface.
+struct Part {
+  Layer sum;
+  float radius;  // Σ coverage · c, px
+};
+const Part kNoPart = Part(kNoLayer, 0.0);
 
 // Adds one list's fragments down to a vergence.
 void addFrom(inout uint cursor, uint end, inout float head, float cell, inout float coverage, inout float alpha,
-             float limit, Interval interval, bool isCoarse, bool isEven) {
+             float limit, inout Part part) {
   while (head >= limit && head >= 0.0) {
     const vec2 redGreen = unpackHalf2x16(colors[cursor].x), blueAlpha = unpackHalf2x16(colors[cursor].y);
-    const float c = signedRadius(head);
-    float share = clamp((c * c - interval.fineSquare) * interval.perSquare, 0.0, 1.0);
-    if (!kInterpolateLevels) share = share > kStepAt ? 1.0 : 0.0;
-    if (!isCoarse) share = 1.0 - share;
-
-    Layer own = Layer(vec3(0.0), kHasCoverage ? alpha : coverage, coverage);
     const Layer fragment =
         Layer(vec3(redGreen, blueAlpha.x), blueAlpha.y, kHasCoverage ? coverages[cursor] : blueAlpha.y);
-    const float seen = share * cell * addBehind(own, fragment);
+    Layer own = Layer(vec3(0.0), kHasCoverage ? alpha : coverage, coverage);
+    const float seen = cell * addBehind(own, fragment);
     coverage = own.coverage;
     alpha = own.alpha;
-    surface.color += seen * fragment.color;
-    surface.alpha += seen * fragment.alpha;
-    surface.coverage += seen * fragment.coverage;
-    const vec2 level = isEven ? vec2(1.0, 0.0) : vec2(0.0, 1.0);
-    whole += level * (cell * fragment.coverage);
-    gathered += level * (share * cell * fragment.coverage);
+    part.sum.color += seen * fragment.color;
+    part.sum.alpha += seen * fragment.alpha;
+    part.sum.coverage += seen * fragment.coverage;
+    part.radius += seen * fragment.coverage * signedRadius(head);
     farthest = min(farthest, head);
     ++cursor;
     head = cursor < end ? vergences[cursor] : -1.0;
   }
 }
 
-void addLevel(inout Lookup at, float limit, Interval interval, bool isCoarse, bool isEven) {
-  addFrom(at.cursor.x, at.end.x, at.head.x, at.weight.x, at.coverage.x, at.alpha.x, limit, interval, isCoarse, isEven);
-  addFrom(at.cursor.y, at.end.y, at.head.y, at.weight.y, at.coverage.y, at.alpha.y, limit, interval, isCoarse, isEven);
-  addFrom(at.cursor.z, at.end.z, at.head.z, at.weight.z, at.coverage.z, at.alpha.z, limit, interval, isCoarse, isEven);
-  addFrom(at.cursor.w, at.end.w, at.head.w, at.weight.w, at.coverage.w, at.alpha.w, limit, interval, isCoarse, isEven);
+void addLevel(inout Lookup at, float limit, inout Part part) {
+  addFrom(at.cursor.x, at.end.x, at.head.x, at.weight.x, at.coverage.x, at.alpha.x, limit, part);
+  addFrom(at.cursor.y, at.end.y, at.head.y, at.weight.y, at.coverage.y, at.alpha.y, limit, part);
+  addFrom(at.cursor.z, at.end.z, at.head.z, at.weight.z, at.coverage.z, at.alpha.z, limit, part);
+  addFrom(at.cursor.w, at.end.w, at.head.w, at.weight.w, at.coverage.w, at.alpha.w, limit, part);
 }
 
-// Composites what two levels show in an interval.
+// Adds to the surface what two levels show of a part of it. One share for all of it, by its mean blur: fragments of a
+// slanted surface are not equally far in both levels, and shares by each one's own blur would not sum to 1.
+void show(Part kept, Part fresh, Interval interval) {
+  const float covered = kept.sum.coverage + fresh.sum.coverage;
+  if (!(covered > 0.0)) return;
+  const float c = (kept.radius + fresh.radius) / covered;
+  float coarse = clamp((c * c - interval.fineSquare) * interval.perSquare, 0.0, 1.0);
+  if (!kInterpolateLevels) coarse = coarse > kStepAt ? 1.0 : 0.0;
+  const float share = interval.keptIsCoarse ? coarse : 1.0 - coarse;
+  addBehind(surface, Layer(mix(fresh.sum.color, kept.sum.color, share), mix(fresh.sum.alpha, kept.sum.alpha, share),
+                           mix(fresh.sum.coverage, kept.sum.coverage, share)));
+}
+
+// Composites what two levels show in an interval. What of a surface reaches a little beyond is shown too: the next interval
+// begins where this one ends.
 void walk(inout Lookup kept, inout Lookup fresh, Interval interval) {
+  Part ofKept = kNoPart, ofFresh = kNoPart;
   for (;;) {
     const float nearest = max(nearestOf(kept), nearestOf(fresh));
-    if (nearest < 0.0 || nearest < interval.until) return;
-    if (isStarted() && farthest - nearest > push.linkDistance * blurOf(nearest) / push.cocScale) {
+    if (nearest < 0.0) break;
+    const float blur = max(abs(signedRadius(nearest)), interval.leastBlur) / push.cocScale;
+    const bool isOpen = ofKept.sum.coverage + ofFresh.sum.coverage > 0.0;
+    const bool isLinked = farthest - nearest <= push.linkDistance * blur;
+    if (nearest < interval.until && !(isOpen && isLinked && nearest >= interval.until - kOvershoot * blur)) break;
+    if (!isLinked && (isOpen || surface.coverage > 0.0)) {
+      show(ofKept, ofFresh, interval);
+      ofKept = ofFresh = kNoPart;
       finishSurface();
       kept.coverage = kept.alpha = fresh.coverage = fresh.alpha = vec4(0.0);
       if (transmittance < kOpaque) return;
     }
-    if (!isStarted()) farthest = nearest;
-    const float limit = max(nearest - push.epsilon * blurOf(nearest) / push.cocScale, interval.until);
-    addLevel(kept, limit, interval, interval.keptIsCoarse, interval.keptIsEven);
-    addLevel(fresh, limit, interval, !interval.keptIsCoarse, !interval.keptIsEven);
+    const float limit = nearest - push.epsilon * blur;
+    farthest = nearest;
+    addLevel(kept, limit, ofKept);
+    addLevel(fresh, limit, ofFresh);
   }
+  show(ofKept, ofFresh, interval);
+  kept.coverage = kept.alpha = fresh.coverage = fresh.alpha = vec4(0.0);
 }
 
 void main() {
@@ -187,7 +192,8 @@ void main() {
   color = vec3(0.0);
   before = kNoLayer;
   transmittance = 1.0;
-  startSurface();
+  surface = kNoLayer;
+  farthest = 3.4e38;
 
   // Levels are opened one after another: in front of the focal plane down to the finest, behind it up from the next.
   Lookup kept = kClosed;
@@ -200,12 +206,15 @@ void main() {
     const float own = levels[level].own;
     Interval interval;
     interval.fineSquare = levels[fine].own;
-    interval.perSquare = 1.0 / (levels[fine].outer - interval.fineSquare);
+    // The first level is alone, also for what it is followed with beyond its interval.
+    interval.perSquare = i > 0u ? 1.0 / (levels[fine].outer - interval.fineSquare) : 0.0;
+    interval.leastBlur = max(levels[min(fine + 1u, push.levelCount - 1u)].centre, 2.0);
     interval.keptIsCoarse = !isFar;
-    interval.keptIsEven = (level & 1u) != 0u;
     const float border = sqrt(own);
     interval.until = i + 1u == count ? 0.0 : vergenceOf(isFar ? border : -border);
-    const float start = isFar ? vergenceOf(sqrt(interval.fineSquare)) : vergenceOf(-sqrt(levels[level].outer));
+    // A level is opened where it begins to show, or a little before, as far as nothing has been shown there yet.
+    const float begin = isFar ? (1.0 - kOvershoot) * sqrt(interval.fineSquare) : -(1.0 + kOvershoot) * sqrt(levels[level].outer);
+    const float start = min(vergenceOf(begin), farthest);
     const bool hasAny = (shownLevels & ((1u << level) | (1u << (level + kShownFarShift)))) != 0u;
     Lookup fresh = kClosed;
     if (hasAny) fresh = opened(level, position, start);

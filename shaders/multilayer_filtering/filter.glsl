@@ -18,7 +18,7 @@ float signedRadius(float vergence) { return push.cocScale * (push.focusVergence 
 
 bool isKept(float vergence) {
   const float c = signedRadius(vergence);
-  return abs(c) >= levels[push.level].dropWithin && (c < 0.0 ? levels[push.level].keepNear : levels[push.level].keepFar) != 0u;
+  return abs(c) >= levels[push.level].dropWithin && c >= levels[push.level].lowest && c <= levels[push.level].highest;
 }
 
 // To the next fragment that this level keeps.

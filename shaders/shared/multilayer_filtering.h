@@ -14,6 +14,7 @@ SHARED_CONST uint kListLengthMost = 64u;     // fragments a pixel that sorting c
 SHARED_CONST uint kSortBudget = 60000u;
 
 SHARED_CONST uint kShownFarShift = 16u;      // bits of `shown`: levels in front of the focal plane, then behind it
+SHARED_CONST float kOvershoot = 0.5f;        // of |c|: how far a surface is followed into the next levels' interval
 SHARED_CONST float kOpaque = 1e-4f;          // transmittance below which nothing more is seen
 
 // One level of the hierarchy: a window of cells, each with a list of fragments filtered by a box. Cell (0, 0)'s centre lies
@@ -27,8 +28,8 @@ struct FilterLevel {
   int tapDistance;  // cells of the level before, from tap to tap; 0: mip step, taps at twice the index
   // Squares of |c|, px²: below `inner` and above `outer` the level does not show, at `own` it shows alone.
   float inner, own, outer;
-  float dropWithin;  // px: while the level is made, fragments with a smaller |c| are dropped
-  uint keepNear, keepFar;  // whether fragments in front of and behind the focal plane are kept, 0 or 1
+  // px: while the level is made, fragments are dropped whose |c| is below `dropWithin` or whose c is not between these.
+  float dropWithin, lowest, highest;
   uint padding0, padding1;
 };
 
