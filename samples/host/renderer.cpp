@@ -294,7 +294,7 @@ Rendering Renderer::State::run(const passes::Technique& technique, const DofInpu
       std::memcpy(&statistics, executor.mapped(buffer).data(), sizeof statistics);
       add(rendering.statistics, statistics);
     }
-    if (lacksRoom(rendering.statistics)) return rendering;  // The caller makes room and starts again.
+    if (!options.fixedRoom && lacksRoom(rendering.statistics)) return rendering;  // The caller makes room and starts again.
     if (options.progress) options.progress(frame + 1, frames);
     if (!isLast) continue;
     rendering.color = imageFrom(executor.mapped(back.color), inputs.extent, 4);
@@ -311,6 +311,10 @@ Rendering Renderer::State::run(const passes::Technique& technique, const DofInpu
 Rendering Renderer::render(const Shot& shot, const RenderOptions& options) {
   const auto& technique = techniqueOf(options);
   const DofInputs inputs = state_->sceneInputs(shot);
+  if (options.fixedRoom) {
+    state_->sceneDraw.fragmentNodesPerPixel = options.fixedRoom->fragmentNodes;
+    state_->sceneDraw.listFragmentsPerPixel = options.fixedRoom->listFragments;
+  }
   const double pixels = static_cast<double>(inputs.extent.width) * inputs.extent.height;
   for (;;) {
     auto rendering = state_->run(technique, inputs, options, [&](Graph& graph, uint32_t frame) {
@@ -318,7 +322,7 @@ Rendering Renderer::render(const Shot& shot, const RenderOptions& options) {
       now.frame = frame;
       return state_->declareTechnique(graph, now, technique, options);
     });
-    if (!lacksRoom(rendering.statistics)) return rendering;
+    if (options.fixedRoom || !lacksRoom(rendering.statistics)) return rendering;
     makeRoom(rendering.statistics, pixels, state_->sceneDraw);
   }
 }

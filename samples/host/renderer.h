@@ -43,6 +43,11 @@ struct Tapped {
 /// Done executions and their number; called between executions.
 using Progress = std::function<void(uint32_t done, uint32_t total)>;
 
+/// Room in per-pixel lists, in fragments a pixel; see passes::SceneDraw.
+struct ListRoom {
+  float fragmentNodes = 2.0f, listFragments = 6.0f;
+};
+
 struct RenderOptions {
   std::string technique;
   passes::ParameterSet parameters;
@@ -53,6 +58,9 @@ struct RenderOptions {
   /// A progressive technique's come from the last execution that has the pass. Formats that are no picture throw.
   std::vector<rendergraph::ImageTap> taps;
   Tapped* tapped = nullptr;
+  /// Lists get no more room than this, and the picture is what fits. Without it, room grows and the frame is rendered
+  /// again until everything fits.
+  std::optional<ListRoom> fixedRoom;
   /// Called with the capture of each execution, if set.
   std::function<void(const rendergraph::Capture&)> observe;
 };

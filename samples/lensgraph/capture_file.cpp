@@ -78,6 +78,11 @@ json captureJson(const engine::DeviceDescription& device, const CaptureInput& in
         {"transparentNodes", statistics.transparentNodes},
         {"transparentDropped", statistics.transparentDropped},
         {"transparentUnsorted", statistics.transparentUnsorted},
+        {"fragmentNodes", statistics.fragmentNodes},
+        {"fragmentNodesDropped", statistics.fragmentNodesDropped},
+        {"listFragments", statistics.listFragments},
+        {"listFragmentsDropped", statistics.listFragmentsDropped},
+        {"unsortedLists", statistics.unsortedLists},
         {"clampedCoc", statistics.clampedCoc}}},
       {"graph", json::parse(graph)},
   };

@@ -75,6 +75,10 @@ void printSummary(const engine::DeviceDescription& device, const host::Technique
     spdlog::warn("{} transparent fragments found no room: the picture is incomplete",
                  rendering.statistics.transparentDropped);
   }
+  if (rendering.statistics.unsortedLists > 0) {
+    spdlog::warn("{} pixels have too many surfaces one behind another: some are missing there",
+                 rendering.statistics.unsortedLists);
+  }
 }
 
 }  // namespace cli

@@ -10,8 +10,10 @@ SHARED_NAMESPACE_BEGIN
 SHARED_CONST uint kMultilayerTile = 8u;      // cells; work group side
 SHARED_CONST uint kMaxFilterLevels = 14u;    // 0 … 13: filters up to 8192 px wide
 SHARED_CONST uint kListLengthMost = 64u;     // fragments a pixel that sorting can keep
-// Visits of nodes and shifts that sorting one list may take; devices may end loops after 65 535 iterations, silently.
+// Steps that sorting one list may take, and what of them is left for putting what was found in order: devices may end loops
+// after 65 535 iterations, silently.
 SHARED_CONST uint kSortBudget = 60000u;
+SHARED_CONST uint kSortReserve = 2000u;
 
 SHARED_CONST uint kShownFarShift = 16u;      // bits of `shown`: levels in front of the focal plane, then behind it
 SHARED_CONST float kOvershoot = 0.5f;        // of |c|: how far a surface is followed into the next levels' interval
