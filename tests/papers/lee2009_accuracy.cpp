@@ -4,9 +4,6 @@
 //   lee2009_accuracy -o docs/results/multiview_synthesis_llvmpipe.json SHOT.json…
 //
 // The reference is dof.exr beside the shot where there is one (ray-traced), else accumulation of 1024 views.
-#include <filesystem>
-
-#include "engine/image_io.h"
 #include "measure.h"
 
 namespace {
@@ -14,15 +11,8 @@ namespace {
 using nlohmann::ordered_json;
 using passes::ParameterSet;
 
-engine::FloatImage referenceOf(host::Renderer& renderer, const host::Shot& shot, const std::string& file) {
-  const auto truth = std::filesystem::path(file).parent_path() / "dof.exr";
-  if (std::filesystem::exists(truth)) return engine::readImage(truth);
-  return papers::pictureOf(renderer, shot, "accumulation",
-                           {{"lensSamples", int64_t{1024}}, {"viewsPerFrame", int64_t{8}}});
-}
-
 ordered_json rowsOf(host::Renderer& renderer, const host::Shot& shot, const std::string& file) {
-  const auto reference = referenceOf(renderer, shot, file);
+  const auto reference = papers::referenceOf(renderer, shot, file);
   const int64_t few = 32, many = 256;
   std::vector<ParameterSet> sets = {
       {{"lensSamples", few}},

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 
 #include "engine/device.h"
 #include "engine/error.h"
+#include "engine/image_io.h"
 #include "engine/metrics.h"
 
 namespace papers {
@@ -39,6 +41,12 @@ ordered_json toJson(const ParameterSet& parameters) {
 engine::FloatImage pictureOf(host::Renderer& renderer, const host::Shot& shot, const std::string& technique,
                              const ParameterSet& parameters) {
   return renderOnce(renderer, shot, technique, parameters).color;
+}
+
+engine::FloatImage referenceOf(host::Renderer& renderer, const host::Shot& shot, const std::string& file) {
+  const auto truth = std::filesystem::path(file).parent_path() / "dof.exr";
+  if (std::filesystem::exists(truth)) return engine::readImage(truth);
+  return pictureOf(renderer, shot, "accumulation", {{"lensSamples", int64_t{1024}}, {"viewsPerFrame", int64_t{8}}});
 }
 
 ordered_json measure(host::Renderer& renderer, const host::Shot& shot, const std::string& technique,

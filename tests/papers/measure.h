@@ -13,6 +13,9 @@ namespace papers {
 engine::FloatImage pictureOf(host::Renderer& renderer, const host::Shot& shot, const std::string& technique,
                              const passes::ParameterSet& parameters);
 
+/// dof.exr beside the shot's file where there is one (ray-traced), else accumulation of 1024 views.
+engine::FloatImage referenceOf(host::Renderer& renderer, const host::Shot& shot, const std::string& file);
+
 /// Technique, parameters, wall time of an execution after a first one (ms), PSNR and SSIM of the displayed
 /// picture. Prints them too.
 nlohmann::ordered_json measure(host::Renderer& renderer, const host::Shot& shot, const std::string& technique,
