@@ -36,8 +36,8 @@ FramePlan framePlan(const DofInputs& inputs, const Parameters& parameters) {
   const auto blur = [&](float vergence) { return double{lens.cocScale} * (lens.focusVergence - vergence); };
   LevelRequest request;
   request.extent = inputs.extent;
-  request.nearCoc = std::max(-blur(inputs.scene->nearestVergence), 0.0);
-  request.farCoc = std::max(blur(inputs.scene->farthestVergence), 0.0);
+  request.nearCoc = std::clamp(-blur(inputs.scene->nearestVergence), 0.0, double{lens.maxCocRadius});
+  request.farCoc = std::clamp(blur(inputs.scene->farthestVergence), 0.0, double{lens.maxCocRadius});
   request.subpixelSteps = static_cast<int>(parameters.antialiasing);
   request.mipSteps = parameters.mipSteps;
   request.stackSteps = parameters.stackSteps;

@@ -94,6 +94,10 @@ uint32_t FramePlan::listRoom() const {
   return room(inputs.scene->listFragmentsPerPixel, inputs.extent, UINT32_MAX / sizeof(shared::uvec2));
 }
 
+float FramePlan::mostSquare() const {
+  return inputs.lens.maxCocRadius * inputs.lens.maxCocRadius;
+}
+
 LinkedLists declareCollect(Graph& graph, const FramePlan& plan) {
   const VkExtent2D extent = plan.listExtent();
   const VkDeviceSize reserved = VkDeviceSize{plan.reservedNodes()} * sizeof(shared::FragmentNode);
@@ -186,12 +190,10 @@ FragmentLists declareCompact(Graph& graph, const FramePlan& plan, LinkedLists& l
   lists.colors = pass.write(lists.colors, Usage::storage);
   if (plan.hasCoverage()) lists.coverages = pass.write(lists.coverages, Usage::storage);
   statistics = pass.modify(statistics, Usage::storage);
-  const auto& lens = plan.inputs.lens;
   const shared::CompactPush push{.size = signedExtent(plan.listExtent()),
-                                 .vergenceScale = lens.vergenceScale,
-                                 .vergenceOffset = lens.vergenceOffset,
                                  .room = plan.listRoom(),
-                                 .reservedNodes = plan.reservedNodes()};
+                                 .reservedNodes = plan.reservedNodes(),
+                                 .lens = plan.inputs.lens};
   const std::array<uint32_t, 1> specialization = {plan.hasCoverage() ? 1u : 0u};
   pass.record([linked, lists, statistics, push, specialization, extent = plan.listExtent()](PassContext& context) {
     const std::array bindings = {rendergraph::storage(linked.heads),       rendergraph::storage(linked.nodes),
@@ -263,7 +265,8 @@ Buffer declareShown(Graph& graph, const FramePlan& plan, const FragmentLists& li
                                .levelCount = static_cast<uint32_t>(plan.levels.levels.size()),
                                .room = plan.listRoom(),
                                .cocScale = plan.inputs.lens.cocScale,
-                               .focusVergence = plan.inputs.lens.focusVergence};
+                               .focusVergence = plan.inputs.lens.focusVergence,
+                               .mostSquare = plan.mostSquare()};
   pass.record([lists, shown, push, extent](PassContext& context) {
     const std::array bindings = {rendergraph::storage(lists.levels), rendergraph::storage(lists.lists),
                                  rendergraph::storage(lists.vergences), rendergraph::storage(shown)};
@@ -304,7 +307,8 @@ Image declareAccumulate(Graph& graph, const FramePlan& plan, const FragmentLists
                                               .blue = inputs.background[2],
                                               .finestShown = plan.levels.finestShown,
                                               .nearLevels = plan.levels.nearLevels,
-                                              .farLevels = plan.levels.farLevels};
+                                              .farLevels = plan.levels.farLevels,
+                                              .mostSquare = plan.mostSquare()};
   // The paper's borders are where a level begins to show; ours, half of the way to where it shows alone.
   const float stepAt = parameters.levelMatch == LevelMatch::diameter ? 0.0f : 0.5f;
   const std::array<uint32_t, 5> specialization = {

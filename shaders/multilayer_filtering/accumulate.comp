@@ -150,7 +150,7 @@ void show(Part kept, Part fresh, Interval interval) {
   const float covered = kept.sum.coverage + fresh.sum.coverage;
   if (!(covered > 0.0)) return;
   const float c = (kept.radius + fresh.radius) / covered;
-  float coarse = clamp((c * c - interval.fineSquare) * interval.perSquare, 0.0, 1.0);
+  float coarse = clamp((min(c * c, push.mostSquare) - interval.fineSquare) * interval.perSquare, 0.0, 1.0);
   if (!kInterpolateLevels) coarse = coarse > kStepAt ? 1.0 : 0.0;
   const float share = interval.keptIsCoarse ? coarse : 1.0 - coarse;
   addBehind(surface, Layer(mix(fresh.sum.color, kept.sum.color, share), mix(fresh.sum.alpha, kept.sum.alpha, share),

@@ -34,6 +34,7 @@ void main() {
   const uint begin = min(lists[list], push.room), end = min(lists[list + 1u], push.room);
   uint node = imageLoad(heads, pixel).r;
   uint replaced = 0u;
+  bool isLimited = false;
   for (uint i = begin; i < end; ++i) {
     const FragmentNode fragment = nodes[node - 1u];
     node = fragment.next & kFragmentNextMask;
@@ -44,9 +45,12 @@ void main() {
       ++replaced;
     }
     rgb *= blueAlpha.y;
-    vergences[i] = max(push.vergenceScale * uintBitsToFloat(fragment.vergence) + push.vergenceOffset, 0.0);
+    const float vergence = max(vergenceFromDepthBuffer(push.lens, uintBitsToFloat(fragment.vergence)), 0.0);
+    isLimited = isLimited || abs(signedCocRadius(push.lens, vergence)) >= push.lens.maxCocRadius;
+    vergences[i] = vergence;
     colors[i] = uvec2(packHalf2x16(rgb.rg), packHalf2x16(vec2(rgb.b, blueAlpha.y)));
     if (kHasCoverage) coverages[i] = 1.0;
   }
   if (replaced > 0u) atomicAdd(statistics.replacedTexels, replaced);
+  if (isLimited) atomicAdd(statistics.clampedCoc, 1u);
 }

@@ -4,10 +4,8 @@
 #include "filter.glsl"
 
 void main() {
-  const ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
-  const int index = cellOf(cell);
-  if (index < 0) return;
-  openLists(cell);
+  const int list = openLists();
+  if (list < 0) return;
   uint count = 0u;
   for (float nearest = nearestHead(); nearest >= 0.0; nearest = nearestHead()) {
     ++count;
@@ -19,5 +17,5 @@ void main() {
       }
     }
   }
-  lists[levels[push.level].firstList + uint(index)] = count;
+  lists[list] = count;
 }

@@ -9,6 +9,8 @@ layout(std430, set = 0, binding = 1) buffer Lists { uint lists[]; };
 layout(std430, set = 0, binding = 2) buffer Vergences { float vergences[]; };
 layout(push_constant) uniform Push { FilterPush push; };
 
+FilterLevel made;  // the level
+
 // Where the four lists are being read.
 uint cursors[4];
 uint ends[4];
@@ -18,7 +20,7 @@ float signedRadius(float vergence) { return push.cocScale * (push.focusVergence 
 
 bool isKept(float vergence) {
   const float c = signedRadius(vergence);
-  return abs(c) >= levels[push.level].dropWithin && c >= levels[push.level].lowest && c <= levels[push.level].highest;
+  return abs(c) >= made.dropWithin && c >= made.lowest && c <= made.highest;
 }
 
 // To the next fragment that this level keeps.
@@ -31,26 +33,23 @@ void settle(int k) {
   heads[k] = -1.0;
 }
 
-// The cell's index within the level's window, or -1 outside.
-int cellOf(ivec2 cell) {
-  const ivec2 size = levels[push.level].size;
-  return any(greaterThanEqual(cell, size)) ? -1 : cell.y * size.x + cell.x;
-}
-
-void openLists(ivec2 cell) {
-  const uint source = push.level - 1u;
-  const ivec2 index = cell + levels[push.level].first;
-  const int distance = levels[push.level].tapDistance;
-  const ivec2 last = levels[source].size - 1;
+// Opens the lists that this invocation's cell is made of. Returns the cell's own list, or -1 outside of the level.
+int openLists() {
+  made = levels[push.level];
+  const FilterLevel source = levels[push.level - 1u];
+  const ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(cell, made.size))) return -1;
+  const ivec2 index = cell + made.first;
   for (int k = 0; k < 4; ++k) {
     const ivec2 corner = ivec2(k & 1, k >> 1);
-    const ivec2 tap = distance == 0 ? 2 * index + corner : index + distance * corner;
-    const ivec2 inside = clamp(tap - levels[source].first, ivec2(0), last);  // beyond the border, its cells
-    const uint list = levels[source].firstList + uint(inside.y * levels[source].size.x + inside.x);
+    const ivec2 tap = made.tapDistance == 0 ? 2 * index + corner : index + made.tapDistance * corner;
+    const ivec2 inside = clamp(tap - source.first, ivec2(0), source.size - 1);  // beyond the border, its cells
+    const uint list = source.firstList + uint(inside.y * source.size.x + inside.x);
     cursors[k] = min(lists[list], push.room);
     ends[k] = min(lists[list + 1u], push.room);
     settle(k);
   }
+  return int(made.firstList) + cell.y * made.size.x + cell.x;
 }
 
 float nearestHead() { return max(max(heads[0], heads[1]), max(heads[2], heads[3])); }
@@ -58,6 +57,6 @@ float nearestHead() { return max(max(heads[0], heads[1]), max(heads[2], heads[3]
 // The farthest vergence that is merged with a fragment at this one: within a share of the size of the blur that it is for,
 // or, nearer to focus, of this level's. So lists hold as many fragments as blur tells apart.
 float mergeLimit(float vergence) {
-  const float size = max(levels[push.level].centre, abs(signedRadius(vergence)));
+  const float size = max(made.centre, abs(signedRadius(vergence)));
   return vergence - push.epsilon * size / push.cocScale;
 }

@@ -15,11 +15,9 @@ Layer fragmentAt(uint i) {
 }
 
 void main() {
-  const ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
-  const int index = cellOf(cell);
-  if (index < 0) return;
-  openLists(cell);
-  uint target = lists[levels[push.level].firstList + uint(index)];
+  const int list = openLists();
+  if (list < 0) return;
+  uint target = lists[list];
   for (float nearest = nearestHead(); nearest >= 0.0 && target < push.room; nearest = nearestHead()) {
     const float limit = mergeLimit(nearest);
     Layer sum = kNoLayer;

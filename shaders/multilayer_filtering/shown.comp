@@ -24,7 +24,7 @@ uint shownBy(uint level, ivec2 tile) {
     const uint rowEnd = min(lists[row + uint(high.x) + 1u], push.room);
     for (uint i = min(lists[row + uint(low.x)], push.room); i < rowEnd; ++i) {  // The row's lists are one range.
       const float c = push.cocScale * (push.focusVergence - vergences[i]);
-      const float square = c * c;
+      const float square = min(c * c, push.mostSquare);
       if (square >= at.inner && (isLast || square <= at.outer)) bits |= c < 0.0 ? 1u : 1u << kShownFarShift;
     }
   }

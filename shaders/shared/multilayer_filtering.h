@@ -4,6 +4,7 @@
 #define LENSGRAPH_SHARED_MULTILAYER_FILTERING_H
 
 #include "shaders/shared/interop.h"
+#include "shaders/shared/lens.h"
 
 SHARED_NAMESPACE_BEGIN
 
@@ -36,11 +37,10 @@ struct FilterLevel {
 };
 
 struct CompactPush {
-  ivec2 size;            // px, of the lists
-  float vergenceScale;   // V = scale · z + offset
-  float vergenceOffset;  // 1/m
-  uint room;             // fragments that the pool holds
+  ivec2 size;          // px, of the lists
+  uint room;           // fragments that the pool holds
   uint reservedNodes;
+  LensConstants lens;
 };
 
 struct FilterPush {
@@ -58,6 +58,7 @@ struct ShownPush {
   uint room;
   float cocScale;       // K, px·m
   float focusVergence;  // 1/m
+  float mostSquare;     // px²: larger |c|² are limited to it
 };
 
 struct MultilayerAccumulatePush {
@@ -72,6 +73,7 @@ struct MultilayerAccumulatePush {
   float red, green, blue;  // background
   uint finestShown;            // level of the picture's resolution
   uint nearLevels, farLevels;  // coarsest levels that show in front of and behind the focal plane
+  float mostSquare;            // px²: larger |c|² are limited to it
 };
 
 SHARED_NAMESPACE_END

@@ -165,6 +165,48 @@ TEST_F(MultilayerFiltering, BlurIsAsWideAsTheCircleOfConfusion) {
   }
 }
 
+// A focus pull from before everything to behind everything: neighbouring frames change evenly, although levels come and go.
+TEST_F(MultilayerFiltering, FocusPullsDoNotPop) {
+  host::Renderer renderer(support::device(), support::layeredScene(), std::nullopt);
+  auto shot = support::smallShot(96, 54);
+  shot.lens.apertureRadius = 0.05;
+  const auto largest = [&](const char* technique, const ParameterSet& parameters) {
+    std::vector<engine::FloatImage> frames;
+    double change = 0.0;
+    for (int step = 0; step < 60; ++step) {
+      shot.lens.focusDistance = 1.0 / (1.6 - 1.55 * step / 59.0);
+      frames.push_back(render(renderer, shot, technique, parameters).color);
+      if (frames.size() < 3) continue;
+      for (std::size_t i = 0; i < frames[0].samples.size(); ++i) {
+        const auto at = [&](std::size_t frame) { return std::min(double(frames[frame].samples[i]), 1.0); };
+        change = std::max(change, std::abs(at(2) - 2.0 * at(1) + at(0)));
+      }
+      frames.erase(frames.begin());
+    }
+    return change;
+  };
+  const double reference = largest("accumulation", {{"lensSamples", int64_t{64}}, {"viewsPerFrame", int64_t{64}}});
+  const double blended = largest(kName, {}), stepped = largest(kName, {{"interpolateLevels", false}});
+  std::printf("focus pull, largest second difference: %.3f, without interpolation %.3f, accumulation %.3f\n", blended,
+              stepped, reference);
+  EXPECT_LE(blended, 0.2);
+  EXPECT_GE(stepped, 0.6);
+}
+
+TEST_F(MultilayerFiltering, TheLensesLimitOfBlurIsKeptAndCounted) {
+  auto shot = support::smallShot(96, 96);
+  shot.lens.apertureRadius = 0.5;
+  shot.lens.maxCocRadius = 5.0 / 96.0;
+  const auto limited = rendering(support::lightScene(6.0, 4.0, support::pixelsPerTangent(shot)), shot, {{"mipSteps", int64_t{0}}});
+  const auto spot = support::measureSpot(limited.color);
+  EXPECT_NEAR(std::sqrt(spot.varianceX), std::sqrt(0.25 * 25.0 + 16.0 / 12.0), 0.1);
+  EXPECT_EQ(limited.statistics.clampedCoc, 16u);
+  shot.lens.maxCocRadius = 0.0;
+  const auto free = rendering(support::lightScene(6.0, 4.0, support::pixelsPerTangent(shot)), shot, {{"mipSteps", int64_t{0}}});
+  EXPECT_GT(support::measureSpot(free.color).varianceX, 2.0 * spot.varianceX);
+  EXPECT_EQ(free.statistics.clampedCoc, 0u);
+}
+
 /// The largest change of slope along the picture's rows: of what stands beside an edge that recedes through focus.
 double largestKink(const engine::FloatImage& image) {
   double largest = 0.0;
