@@ -15,6 +15,12 @@
 
 namespace passes::multilayer_filtering {
 
+/// The shape of the blur.
+enum class Kernel : uint8_t {
+  round,  ///< Nearly, where it is large: of eight boxes.
+  box,    ///< Squares (the paper).
+};
+
 /// Which filter is as wide as a circle of confusion.
 enum class LevelMatch : uint8_t {
   moments,   ///< The one whose second moment, look-up included, is the aperture's.
@@ -31,6 +37,7 @@ struct LevelRequest {
   double border = 0.0;  ///< px: lists exist this far beyond the picture. Beyond, the border's repeat.
   double apertureMoment = 0.25;  ///< Variance of the aperture along an axis, in |c|²; 1/4 for a disc.
   LevelMatch match = LevelMatch::moments;
+  Kernel kernel = Kernel::round;
   bool bilinear = true;  ///< Cells are looked up bilinearly, which widens the filter.
   bool truncate = true;  ///< Drop fragments that neither a level nor a coarser one shows.
 };
@@ -40,13 +47,10 @@ inline constexpr int kMostStackSteps = 6;
 
 struct LevelPlan {
   std::vector<shared::FilterLevel> levels;  ///< At least one.
+  std::vector<shared::FilterLook> looks;    ///< At least one, the first of the picture's resolution, narrowest first.
   uint32_t listCount = 0;                   ///< Of all levels, each with one more that marks its end.
-  uint32_t finestShown = 0;                 ///< Level of the picture's resolution.
-  uint32_t nearLevels = 0, farLevels = 0;   ///< Coarsest level that shows in front of and behind the focal plane.
+  uint32_t nearLooks = 0, farLooks = 0;     ///< Widest look that shows in front of and behind the focal plane.
 };
-
-/// |c| in px at which the filter of 2^step px shows alone; 0 for step 0 by moments. Increases.
-double shownRadius(const LevelRequest& request, int mipSteps, int step);
 
 LevelPlan planLevels(const LevelRequest& request);
 

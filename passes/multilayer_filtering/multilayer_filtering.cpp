@@ -44,6 +44,7 @@ FramePlan framePlan(const DofInputs& inputs, const Parameters& parameters) {
   request.border = std::min(parameters.border * std::max(request.nearCoc, request.farCoc),
                             kWidestBorder * std::max(inputs.extent.width, inputs.extent.height));
   request.apertureMoment = apertureMoment(inputs.aperture);
+  request.kernel = parameters.kernel;
   request.match = parameters.levelMatch;
   request.bilinear = parameters.bilinear;
   request.truncate = parameters.truncation;
@@ -72,6 +73,9 @@ std::span<const Field<Parameters>> fields() {
       choice<&Parameters::blend, kBlendNames>("blend",
                                               "How surfaces are composited: over, or additive (the paper), which "
                                               "over-estimates opacity where three layers meet."),
+      choice<&Parameters::kernel, kKernelNames>(
+          "kernel", "The shape of large blurs: round, of eight boxes of a stack step's level, with levelMatch moments; or "
+                    "box, squares (the paper), faster."),
       choice<&Parameters::levelMatch, kLevelMatchNames>(
           "levelMatch", "Which filter stands for a circle of confusion: that of equal second moment, or that whose side is "
                         "the diameter (the paper)."),

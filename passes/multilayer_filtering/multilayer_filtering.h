@@ -29,6 +29,7 @@ enum class Blend : uint8_t {
 };
 inline constexpr std::array<std::string_view, 2> kBlendNames = {"over", "additive"};
 
+inline constexpr std::array<std::string_view, 2> kKernelNames = {"round", "box"};
 inline constexpr std::array<std::string_view, 2> kLevelMatchNames = {"moments", "diameter"};
 
 /// Points of a pixel at which surfaces are seen.
@@ -42,6 +43,7 @@ struct Parameters {
   double epsilon = 0.25;  ///< 0…4: fragments are merged while their |c| differ by less than this share of it.
   double linkDistance = 0.1;  ///< 0…4: gap up to which fragments belong to one surface, as a share of |c|.
   Blend blend = Blend::over;
+  Kernel kernel = Kernel::round;
   LevelMatch levelMatch = LevelMatch::moments;
   Antialiasing antialiasing = Antialiasing::none;
   bool interpolateLevels = true;

@@ -56,7 +56,7 @@ uint32_t room(double perPixel, VkExtent2D extent, uint64_t most) {
 shared::ViewConstants listView(const FramePlan& plan) {
   DofInputs wider = plan.inputs;
   wider.extent = plan.listExtent();
-  const uint32_t steps = plan.levels.finestShown;
+  const uint32_t steps = plan.levels.looks.front().level;
   wider.projection.pixelsPerTangent *= static_cast<float>(1u << steps);
   const auto shift = [](int32_t first, uint32_t inner, uint32_t outer) {
     return static_cast<float>(-first) + 0.5f * static_cast<float>(inner) - 0.5f * static_cast<float>(outer);
@@ -136,9 +136,10 @@ LinkedLists declareCollect(Graph& graph, const FramePlan& plan) {
 namespace {
 
 FragmentLists declareUpload(Graph& graph, const FramePlan& plan) {
-  const auto& levels = plan.levels.levels;
+  const auto& [levels, looks] = std::pair(plan.levels.levels, plan.levels.looks);
   FragmentLists lists;
   lists.levels = graph.createBuffer(named("levels"), {.size = std::as_bytes(std::span(levels)).size()});
+  lists.looks = graph.createBuffer(named("looks"), {.size = std::as_bytes(std::span(looks)).size()});
   lists.lists = graph.createBuffer(named("lists"), {.size = plan.levels.listCount * sizeof(uint32_t)});
   const VkDeviceSize fragments = plan.listRoom();
   lists.vergences = graph.createBuffer(named("vergences"), {.size = fragments * sizeof(float)});
@@ -148,8 +149,10 @@ FragmentLists declareUpload(Graph& graph, const FramePlan& plan) {
   }
   auto pass = graph.addPass(named("upload"), PassKind::transfer);
   lists.levels = pass.write(lists.levels, Usage::transferDestination);
-  pass.record([table = lists.levels, levels](PassContext& context) {
-    context.updateBuffer(table, std::as_bytes(std::span(levels)));
+  lists.looks = pass.write(lists.looks, Usage::transferDestination);
+  pass.record([lists, levels = levels, looks = looks](PassContext& context) {
+    context.updateBuffer(lists.levels, std::as_bytes(std::span(levels)));
+    context.updateBuffer(lists.looks, std::as_bytes(std::span(looks)));
   });
   return lists;
 }
@@ -253,23 +256,25 @@ void declareFilter(Graph& graph, const FramePlan& plan, uint32_t level, Fragment
 
 namespace {
 
-/// Which levels each tile of the picture shows.
+/// Which looks each tile of the picture shows.
 Buffer declareShown(Graph& graph, const FramePlan& plan, const FragmentLists& lists, rendergraph::Groups tiles) {
-  Buffer shown = graph.createBuffer(named("shown_levels"), {.size = tiles.x * tiles.y * sizeof(uint32_t)});
+  Buffer shown = graph.createBuffer(named("shown_looks"), {.size = tiles.x * tiles.y * sizeof(uint32_t)});
   auto pass = graph.addPass(named("shown"), PassKind::compute);
-  for (const Buffer& buffer : {lists.levels, lists.lists, lists.vergences}) pass.read(buffer, Usage::storage);
+  for (const Buffer& buffer : {lists.levels, lists.looks, lists.lists, lists.vergences}) {
+    pass.read(buffer, Usage::storage);
+  }
   shown = pass.write(shown, Usage::storage);
   const VkExtent2D extent = {tiles.x, tiles.y};
   const shared::ShownPush push{.tiles = signedExtent(extent),
-                               .finestShown = plan.levels.finestShown,
-                               .levelCount = static_cast<uint32_t>(plan.levels.levels.size()),
+                               .lookCount = static_cast<uint32_t>(plan.levels.looks.size()),
                                .room = plan.listRoom(),
                                .cocScale = plan.inputs.lens.cocScale,
                                .focusVergence = plan.inputs.lens.focusVergence,
                                .mostSquare = plan.mostSquare()};
   pass.record([lists, shown, push, extent](PassContext& context) {
-    const std::array bindings = {rendergraph::storage(lists.levels), rendergraph::storage(lists.lists),
-                                 rendergraph::storage(lists.vergences), rendergraph::storage(shown)};
+    const std::array bindings = {rendergraph::storage(lists.levels), rendergraph::storage(lists.looks),
+                                 rendergraph::storage(lists.lists), rendergraph::storage(lists.vergences),
+                                 rendergraph::storage(shown)};
     context.dispatch({.program = kShown,
                       .bindings = bindings,
                       .pushConstants = rendergraph::bytesOf(push),
@@ -288,7 +293,7 @@ Image declareAccumulate(Graph& graph, const FramePlan& plan, const FragmentLists
   const auto tiles = rendergraph::groupsFor(inputs.extent, shared::kMultilayerTile);
   const Buffer shown = declareShown(graph, plan, lists, tiles);
   auto pass = graph.addPass(named("accumulate"), PassKind::compute);
-  for (const Buffer& buffer : {lists.levels, lists.lists, lists.vergences, lists.colors, shown}) {
+  for (const Buffer& buffer : {lists.levels, lists.looks, lists.lists, lists.vergences, lists.colors, shown}) {
     pass.read(buffer, Usage::storage);
   }
   if (plan.hasCoverage()) pass.read(lists.coverages, Usage::storage);
@@ -296,7 +301,7 @@ Image declareAccumulate(Graph& graph, const FramePlan& plan, const FragmentLists
   statistics = pass.modify(statistics, Usage::storage);
   const shared::MultilayerAccumulatePush push{.size = signedExtent(inputs.extent),
                                               .tileColumns = tiles.x,
-                                              .levelCount = static_cast<uint32_t>(plan.levels.levels.size()),
+                                              .lastList = plan.levels.listCount - 1,
                                               .room = plan.listRoom(),
                                               .cocScale = inputs.lens.cocScale,
                                               .focusVergence = inputs.lens.focusVergence,
@@ -305,9 +310,8 @@ Image declareAccumulate(Graph& graph, const FramePlan& plan, const FragmentLists
                                               .red = inputs.background[0],
                                               .green = inputs.background[1],
                                               .blue = inputs.background[2],
-                                              .finestShown = plan.levels.finestShown,
-                                              .nearLevels = plan.levels.nearLevels,
-                                              .farLevels = plan.levels.farLevels,
+                                              .nearLooks = plan.levels.nearLooks,
+                                              .farLooks = plan.levels.farLooks,
                                               .mostSquare = plan.mostSquare()};
   // The paper's borders are where a level begins to show; ours, half of the way to where it shows alone.
   const float stepAt = parameters.levelMatch == LevelMatch::diameter ? 0.0f : 0.5f;
@@ -315,10 +319,10 @@ Image declareAccumulate(Graph& graph, const FramePlan& plan, const FragmentLists
       plan.hasCoverage() ? 1u : 0u, parameters.interpolateLevels ? 1u : 0u, parameters.bilinear ? 1u : 0u,
       parameters.blend == Blend::additive ? 1u : 0u, std::bit_cast<uint32_t>(stepAt)};
   pass.record([lists, shown, picture, statistics, push, specialization, tiles](PassContext& context) {
-    const std::array bindings = {rendergraph::storage(lists.levels),    rendergraph::storage(lists.lists),
-                                 rendergraph::storage(lists.vergences), rendergraph::storage(lists.colors),
-                                 rendergraph::storage(coveragesOr(lists)), rendergraph::storage(shown), rendergraph::storage(picture),
-                                 rendergraph::storage(statistics)};
+    const std::array bindings = {
+        rendergraph::storage(lists.levels),    rendergraph::storage(lists.looks),  rendergraph::storage(lists.lists),
+        rendergraph::storage(lists.vergences), rendergraph::storage(lists.colors), rendergraph::storage(coveragesOr(lists)),
+        rendergraph::storage(shown),           rendergraph::storage(picture),      rendergraph::storage(statistics)};
     context.dispatch({.program = kAccumulate,
                       .bindings = bindings,
                       .pushConstants = rendergraph::bytesOf(push),

@@ -34,7 +34,7 @@ struct LinkedLists {
 /// Lists as ranges of consecutive arrays, those of all levels one behind another. List i holds the fragments from
 /// lists[i] to lists[i + 1].
 struct FragmentLists {
-  rendergraph::Buffer levels;  ///< FilterLevel, one a level.
+  rendergraph::Buffer levels, looks;  ///< FilterLevel, one a level; FilterLook.
   rendergraph::Buffer lists, vergences, colors;
   rendergraph::Buffer coverages;  ///< Default-made where everything is opaque: coverage is alpha then.
 };

@@ -16,7 +16,7 @@ SHARED_CONST uint kListLengthMost = 64u;     // fragments a pixel that sorting c
 SHARED_CONST uint kSortBudget = 60000u;
 SHARED_CONST uint kSortReserve = 2000u;
 
-SHARED_CONST uint kShownFarShift = 16u;      // bits of `shown`: levels in front of the focal plane, then behind it
+SHARED_CONST uint kMaxLooks = 32u;           // a bit each in the tiles' masks
 SHARED_CONST float kOvershoot = 0.5f;        // of |c|: how far a surface is followed into the next levels' interval
 SHARED_CONST float kOpaque = 1e-4f;          // transmittance below which nothing more is seen
 
@@ -29,10 +29,20 @@ struct FilterLevel {
   float centre;     // px, of cell 0; half the filter's width
   uint firstList;   // index of the first cell's list among all lists
   int tapDistance;  // cells of the level before, from tap to tap; 0: mip step, taps at twice the index
-  // Squares of |c|, px²: below `inner` and above `outer` the level does not show, at `own` it shows alone.
-  float inner, own, outer;
   // px: while the level is made, fragments are dropped whose |c| is below `dropWithin` or whose c is not between these.
   float dropWithin, lowest, highest;
+  uint padding;
+};
+
+// A way to look a level up, which makes one blur of it. Looks are ordered by blur.
+struct FilterLook {
+  uint level;
+  // Cells from the pixel to each of eight taps around it, which make of the level's box a blur that is nearly round;
+  // 0: the four cells around the pixel, bilinearly.
+  float ring;
+  // Squares of |c|, px²: below `inner` and above `outer` the look does not show, at `own` it shows alone.
+  float inner, own, outer;
+  float halfWidth;  // px, of the blur
   uint padding0, padding1;
 };
 
@@ -53,8 +63,7 @@ struct FilterPush {
 
 struct ShownPush {
   ivec2 tiles;
-  uint finestShown;
-  uint levelCount;
+  uint lookCount;
   uint room;
   float cocScale;       // K, px·m
   float focusVergence;  // 1/m
@@ -64,15 +73,14 @@ struct ShownPush {
 struct MultilayerAccumulatePush {
   ivec2 size;           // px, of the picture
   uint tileColumns;
-  uint levelCount;
+  uint lastList;        // the end of all lists
   uint room;
   float cocScale;       // K, px·m
   float focusVergence;  // 1/m
   float epsilon;
   float linkDistance;   // fragments with no wider gap, as a share of their blur, are of one surface
   float red, green, blue;  // background
-  uint finestShown;            // level of the picture's resolution
-  uint nearLevels, farLevels;  // coarsest levels that show in front of and behind the focal plane
+  uint nearLooks, farLooks;    // widest looks that show in front of and behind the focal plane
   float mostSquare;            // px²: larger |c|² are limited to it
 };
 
