@@ -24,8 +24,7 @@ static_assert(shared::kPrefixSumBlock == shared::kPrefixSumThreads * shared::kPr
 
 void recordDispatch(rendergraph::Pass& pass, const rendergraph::ComputeProgram& program, Buffer values, Buffer totals,
                     const PrefixSumRange& range, uint32_t groups) {
-  const shared::PrefixSumPush push{
-      .first = range.first, .count = range.count, .continues = range.continues ? 1u : 0u};
+  const shared::PrefixSumPush push{.first = range.first, .count = range.count, .continues = range.continues ? 1u : 0u};
   pass.record([&program, values, totals, push, groups](rendergraph::PassContext& context) {
     const std::array bindings = {rendergraph::storage(values), rendergraph::storage(totals)};
     context.dispatch({.program = program,

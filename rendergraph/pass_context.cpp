@@ -321,9 +321,10 @@ void PassContext::fillBuffer(Buffer to, uint32_t word, VkDeviceSize bytes) {
   const Inside inside(*this);
   const DeclaredAccess& target = inside.access.as(to, Usage::transferDestination);
   if (bytes != VK_WHOLE_SIZE && (bytes == 0 || bytes % 4 != 0 || bytes > inside.bytes(target))) {
-    inside.access.fail(Misuse::sizeMismatch, target.resource,
-                       std::to_string(bytes) + " bytes are filled of a buffer of " + std::to_string(inside.bytes(target)),
-                       "fill a multiple of 4 bytes, at least 4, that fit into the buffer");
+    inside.access.fail(
+        Misuse::sizeMismatch, target.resource,
+        std::to_string(bytes) + " bytes are filled of a buffer of " + std::to_string(inside.bytes(target)),
+        "fill a multiple of 4 bytes, at least 4, that fit into the buffer");
   }
   inside.frame.backend.fillBuffer(inside.recording(pass_), inside.frame.bound[target.resource].buffer, word, bytes);
 }

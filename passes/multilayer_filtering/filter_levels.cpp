@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <span>
 #include <utility>
 
@@ -74,6 +75,9 @@ bool canBeRound(const LevelRequest& request, const Steps& steps, int level) {
          steps.width(level) >= 4.0 * steps.cellSize(level);
 }
 
+/// Looks' squared radii grow at least so much from one to the next.
+constexpr double kWidening = 1.2;
+
 /// Distance in cells of eight taps that make of a level's box a blur of this radius.
 double ringFor(const LevelRequest& request, const Steps& steps, int level, double radius) {
   const double cell = steps.cellSize(level);
@@ -82,9 +86,25 @@ double ringFor(const LevelRequest& request, const Steps& steps, int level, doubl
   return std::sqrt(std::max(2.0 * ofTaps, 0.0)) / cell;
 }
 
+/// Variance along an axis of a ring of boxes as it is: taps fall on whole cells (openRing() in accumulate.comp).
+double ringVariance(const Steps& steps, int level, double ring) {
+  const double cell = steps.cellSize(level), diagonal = ring * std::numbers::sqrt2 / 2.0;
+  const int phases = static_cast<int>(cell);
+  double sum = 0.0;
+  for (int i = 0; i < phases; ++i) {
+    const double place = (i + 0.5) / phases;  // of a pixel among the cells
+    const auto up = [&](double offset) { return std::pow(std::floor(place + 0.5 + offset) - place, 2.0); };
+    const auto down = [&](double offset) { return std::pow(std::ceil(place - 0.5 - offset) - place, 2.0); };
+    sum += (up(ring) + down(ring) + up(0.0) + down(0.0)) / 8.0 + (up(diagonal) + down(diagonal)) / 4.0;
+  }
+  return boxVariance(steps, level) + cell * cell * sum / phases;
+}
+
 /// What a level is looked up for: at the pixel, by its box, and around it.
 void addLooks(const LevelRequest& request, const Steps& steps, int level, std::vector<FilterLook>& looks) {
   const auto add = [&](double radius, double ring) {
+    // Taps fall on whole cells, so that a ring may turn out no wider than the one before.
+    if (!looks.empty() && radius * radius < kWidening * looks.back().own) return;
     FilterLook look{};
     look.level = static_cast<uint32_t>(level);
     look.ring = static_cast<float>(ring);
@@ -111,7 +131,8 @@ void addLooks(const LevelRequest& request, const Steps& steps, int level, std::v
   const double scale = std::sqrt(0.25 / request.apertureMoment);
   for (const double share : kRoundRadii) {
     const double radius = share * scale * steps.width(level);
-    add(radius, ringFor(request, steps, level, radius));
+    const double ring = ringFor(request, steps, level, radius);
+    add(radiusOf(request, ringVariance(steps, level, ring)), ring);
   }
 }
 

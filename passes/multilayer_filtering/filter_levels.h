@@ -31,8 +31,8 @@ struct LevelRequest {
   VkExtent2D extent = {1, 1};  ///< px, of the picture.
   double nearCoc = 0.0;        ///< px, ≥ 0: largest |c| of anything in front of the focal plane.
   double farCoc = 0.0;         ///< px, ≥ 0: largest |c| of anything behind it, the background included.
-  int subpixelSteps = 0;  ///< s: lists have 2^s × 2^s pixels for each of the picture's.
-  int mipSteps = 1;       ///< From the picture's resolution on.
+  int subpixelSteps = 0;       ///< s: lists have 2^s × 2^s pixels for each of the picture's.
+  int mipSteps = 1;            ///< From the picture's resolution on.
   int stackSteps = -1;  ///< -1: as many as the blur asks for; of more than kMostStackSteps, the rest become mip steps.
   double border = 0.0;  ///< px: lists exist this far beyond the picture. Beyond, the border's repeat.
   double apertureMoment = 0.25;  ///< Variance of the aperture along an axis, in |c|²; 1/4 for a disc.

@@ -55,15 +55,16 @@ FramePlan framePlan(const DofInputs& inputs, const Parameters& parameters) {
 
 std::span<const Field<Parameters>> fields() {
   static const std::vector<Field<Parameters>> table = {
-      number<&Parameters::listLength>("listLength", "", 1, 64,
+      number<&Parameters::listLength>("listLength", "", 1, 16,
                                       "n: fragments of a pixel that are kept, nearest first. More show more of what is "
                                       "hidden; time and memory of lists grow."),
       number<&Parameters::mipSteps>("mipSteps", "", 0, 13,
                                     "a of the filter configuration a/b: first filter steps, which halve the "
                                     "resolution. More are faster and coarser."),
-      number<&Parameters::stackSteps>("stackSteps", "", -1, 10,
-                                      "b: further filter steps, which keep the resolution. -1: as many as the blur asks "
-                                      "for; fewer limit the blur."),
+      number<&Parameters::stackSteps>(
+          "stackSteps", "", -1, 10,
+          "b: further filter steps, which keep the resolution. -1: as many as the blur asks "
+          "for; fewer limit the blur."),
       number<&Parameters::epsilon>("epsilon", "", 0.0, 4.0,
                                    "Fragments are merged while their blur radii differ by less than this share. "
                                    "Larger makes shorter lists and joins surfaces."),
@@ -74,21 +75,25 @@ std::span<const Field<Parameters>> fields() {
                                               "How surfaces are composited: over, or additive (the paper), which "
                                               "over-estimates opacity where three layers meet."),
       choice<&Parameters::kernel, kKernelNames>(
-          "kernel", "The shape of large blurs: round, of eight boxes of a stack step's level, with levelMatch moments; or "
-                    "box, squares (the paper), faster."),
+          "kernel",
+          "The shape of large blurs: round, of eight boxes of a stack step's level, with levelMatch moments; or "
+          "box, squares (the paper), faster."),
       choice<&Parameters::levelMatch, kLevelMatchNames>(
-          "levelMatch", "Which filter stands for a circle of confusion: that of equal second moment, or that whose side is "
-                        "the diameter (the paper)."),
+          "levelMatch",
+          "Which filter stands for a circle of confusion: that of equal second moment, or that whose side is "
+          "the diameter (the paper)."),
       choice<&Parameters::antialiasing, kAntialiasingNames>(
-          "antialiasing", "Points of a pixel at which surfaces are seen: 2x2 and 4x4 collect 4 and 16 times as much and "
-                          "smooth edges in focus."),
+          "antialiasing",
+          "Points of a pixel at which surfaces are seen: 2x2 and 4x4 collect 4 and 16 times as much and "
+          "smooth edges in focus."),
       toggle<&Parameters::interpolateLevels>("interpolateLevels", "Blend between levels; off shows steps."),
       toggle<&Parameters::bilinear>("bilinear", "Look up four cells of a level; off is faster and blocky."),
       toggle<&Parameters::truncation>("truncation",
                                       "Drop fragments that neither a level nor a coarser one shows. Saves time."),
-      choice<&Parameters::faces, kFacesNames>("faces",
-                                              "Fragments that lists hold: outer, both faces but for the insides of opaque "
-                                              "solids; all; front, those that face the camera (the paper)."),
+      choice<&Parameters::faces, kFacesNames>(
+          "faces",
+          "Fragments that lists hold: outer, both faces but for the insides of opaque "
+          "solids; all; front, those that face the camera (the paper)."),
       number<&Parameters::border>("border", "", 0.0, 1.0,
                                   "How far lists reach beyond the picture, in largest blur radii. 0, the paper, saves "
                                   "memory and repeats the picture's edge."),
@@ -106,8 +111,8 @@ uint32_t frameCount(const Parameters&, const DofInputs&) {
 
 DofOutputs declare(rendergraph::Graph& graph, const DofInputs& inputs, const Parameters& parameters) {
   if (inputs.lens.cocScale == 0.0f) {
-    return pinhole::declare(graph, inputs, {.pixelSamples = 1 << (2 * static_cast<int>(parameters.antialiasing)),
-                                            .viewsPerFrame = 64});
+    return pinhole::declare(
+        graph, inputs, {.pixelSamples = 1 << (2 * static_cast<int>(parameters.antialiasing)), .viewsPerFrame = 64});
   }
   const FramePlan plan = framePlan(inputs, parameters);
   DofOutputs out;

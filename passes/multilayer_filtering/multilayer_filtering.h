@@ -37,10 +37,10 @@ enum class Antialiasing : uint8_t { none, points2x2, points4x4 };
 inline constexpr std::array<std::string_view, 3> kAntialiasingNames = {"none", "2x2", "4x4"};
 
 struct Parameters {
-  int listLength = 4;    ///< 1…64: n, fragments of a pixel that are kept, nearest first.
-  int mipSteps = 1;      ///< 0…13: a of the filter configuration a/b.
-  int stackSteps = -1;   ///< -1…10: b; -1: as many as the blur asks for.
-  double epsilon = 0.25;  ///< 0…4: fragments are merged while their |c| differ by less than this share of it.
+  int listLength = 4;         ///< 1…16: n, fragments of a pixel that are kept, nearest first.
+  int mipSteps = 1;           ///< 0…13: a of the filter configuration a/b.
+  int stackSteps = -1;        ///< -1…10: b; -1: as many as the blur asks for.
+  double epsilon = 0.25;      ///< 0…4: fragments are merged while their |c| differ by less than this share of it.
   double linkDistance = 0.1;  ///< 0…4: gap up to which fragments belong to one surface, as a share of |c|.
   Blend blend = Blend::over;
   Kernel kernel = Kernel::round;

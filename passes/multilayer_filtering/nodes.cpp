@@ -102,10 +102,10 @@ LinkedLists declareCollect(Graph& graph, const FramePlan& plan) {
   const VkExtent2D extent = plan.listExtent();
   const VkDeviceSize reserved = VkDeviceSize{plan.reservedNodes()} * sizeof(shared::FragmentNode);
   LinkedLists lists;
-  lists.heads = graph.createImage(named("heads"),
-                                  {.format = VK_FORMAT_R32_UINT, .width = extent.width, .height = extent.height});
-  lists.nodes = graph.createBuffer(
-      named("nodes"), {.size = reserved + VkDeviceSize{plan.nodeRoom()} * sizeof(shared::FragmentNode)});
+  lists.heads =
+      graph.createImage(named("heads"), {.format = VK_FORMAT_R32_UINT, .width = extent.width, .height = extent.height});
+  lists.nodes = graph.createBuffer(named("nodes"),
+                                   {.size = reserved + VkDeviceSize{plan.nodeRoom()} * sizeof(shared::FragmentNode)});
   lists.allocator = graph.createBuffer(named("allocator"), {.size = sizeof(uint32_t)});
   auto clear = graph.addPass(named("clear_lists"), PassKind::transfer);
   lists.heads = clear.write(lists.heads, Usage::transferDestination);
@@ -123,8 +123,8 @@ LinkedLists declareCollect(Graph& graph, const FramePlan& plan) {
   lists.heads = collect.modify(lists.heads, Usage::storage, {}, kFragment);
   lists.nodes = collect.modify(lists.nodes, Usage::storage, kFragment);
   lists.allocator = collect.modify(lists.allocator, Usage::storage, kFragment);
-  const auto emit = plan.parameters.faces == Faces::front ? shared::SceneEmit::frontFragmentList
-                                                          : shared::SceneEmit::fragmentList;
+  const auto emit =
+      plan.parameters.faces == Faces::front ? shared::SceneEmit::frontFragmentList : shared::SceneEmit::fragmentList;
   collect.record([scene = plan.inputs.scene, extent, view = listView(plan), lists, emit](PassContext& context) {
     const std::array bindings = {rendergraph::storage(lists.heads), rendergraph::storage(lists.nodes),
                                  rendergraph::storage(lists.allocator)};
@@ -288,8 +288,7 @@ Buffer declareShown(Graph& graph, const FramePlan& plan, const FragmentLists& li
 Image declareAccumulate(Graph& graph, const FramePlan& plan, const FragmentLists& lists, Buffer& statistics) {
   const auto& [inputs, parameters] = std::pair(plan.inputs, plan.parameters);
   Image picture = graph.createImage(
-      named("color"),
-      {.format = kViewColorFormat, .width = inputs.extent.width, .height = inputs.extent.height});
+      named("color"), {.format = kViewColorFormat, .width = inputs.extent.width, .height = inputs.extent.height});
   const auto tiles = rendergraph::groupsFor(inputs.extent, shared::kMultilayerTile);
   const Buffer shown = declareShown(graph, plan, lists, tiles);
   auto pass = graph.addPass(named("accumulate"), PassKind::compute);
@@ -305,7 +304,6 @@ Image declareAccumulate(Graph& graph, const FramePlan& plan, const FragmentLists
                                               .room = plan.listRoom(),
                                               .cocScale = inputs.lens.cocScale,
                                               .focusVergence = inputs.lens.focusVergence,
-                                              .epsilon = static_cast<float>(parameters.epsilon),
                                               .linkDistance = static_cast<float>(parameters.linkDistance),
                                               .red = inputs.background[0],
                                               .green = inputs.background[1],
@@ -315,14 +313,17 @@ Image declareAccumulate(Graph& graph, const FramePlan& plan, const FragmentLists
                                               .mostSquare = plan.mostSquare()};
   // The paper's borders are where a level begins to show; ours, half of the way to where it shows alone.
   const float stepAt = parameters.levelMatch == LevelMatch::diameter ? 0.0f : 0.5f;
-  const std::array<uint32_t, 5> specialization = {
-      plan.hasCoverage() ? 1u : 0u, parameters.interpolateLevels ? 1u : 0u, parameters.bilinear ? 1u : 0u,
-      parameters.blend == Blend::additive ? 1u : 0u, std::bit_cast<uint32_t>(stepAt)};
+  const bool isRound = std::ranges::any_of(plan.levels.looks, [](const auto& look) { return look.ring > 0.0f; });
+  const std::array<uint32_t, 6> specialization = {
+      plan.hasCoverage() ? 1u : 0u,    parameters.interpolateLevels ? 1u : 0u,
+      parameters.bilinear ? 1u : 0u,   parameters.blend == Blend::additive ? 1u : 0u,
+      std::bit_cast<uint32_t>(stepAt), isRound ? 1u : 0u};
   pass.record([lists, shown, picture, statistics, push, specialization, tiles](PassContext& context) {
-    const std::array bindings = {
-        rendergraph::storage(lists.levels),    rendergraph::storage(lists.looks),  rendergraph::storage(lists.lists),
-        rendergraph::storage(lists.vergences), rendergraph::storage(lists.colors), rendergraph::storage(coveragesOr(lists)),
-        rendergraph::storage(shown),           rendergraph::storage(picture),      rendergraph::storage(statistics)};
+    const std::array bindings = {rendergraph::storage(lists.levels), rendergraph::storage(lists.looks),
+                                 rendergraph::storage(lists.lists),  rendergraph::storage(lists.vergences),
+                                 rendergraph::storage(lists.colors), rendergraph::storage(coveragesOr(lists)),
+                                 rendergraph::storage(shown),        rendergraph::storage(picture),
+                                 rendergraph::storage(statistics)};
     context.dispatch({.program = kAccumulate,
                       .bindings = bindings,
                       .pushConstants = rendergraph::bytesOf(push),

@@ -21,7 +21,7 @@ struct FramePlan {
   bool hasCoverage() const { return inputs.scene->hasTransparency; }
   uint32_t reservedNodes() const;
   uint32_t nodeRoom() const;  ///< Nodes beyond the reserved ones.
-  float mostSquare() const;     ///< px²: the lens's limit of |c|², infinity where there is none.
+  float mostSquare() const;   ///< px²: the lens's limit of |c|², infinity where there is none.
   uint32_t listRoom() const;  ///< Fragments of all lists of all levels.
 };
 

@@ -294,7 +294,8 @@ Rendering Renderer::State::run(const passes::Technique& technique, const DofInpu
       std::memcpy(&statistics, executor.mapped(buffer).data(), sizeof statistics);
       add(rendering.statistics, statistics);
     }
-    if (!options.fixedRoom && lacksRoom(rendering.statistics)) return rendering;  // The caller makes room and starts again.
+    if (!options.fixedRoom && lacksRoom(rendering.statistics))
+      return rendering;  // The caller makes room and starts again.
     if (options.progress) options.progress(frame + 1, frames);
     if (!isLast) continue;
     rendering.color = imageFrom(executor.mapped(back.color), inputs.extent, 4);

@@ -7,42 +7,20 @@
 // side, or the same surface from another look or cell. They are added up; surfaces are composited one over the other.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "shaders/shared/multilayer_filtering.h"
 #include "shaders/shared/statistics.h"
 #include "coverage.glsl"
+#include "look.glsl"
 
-layout(constant_id = 0) const bool kHasCoverage = false;
 layout(constant_id = 1) const bool kInterpolateLevels = true;
-layout(constant_id = 2) const bool kBilinear = true;
 layout(constant_id = 3) const bool kAdditive = false;
 layout(constant_id = 4) const float kStepAt = 0.5;  // without interpolation: share from which the coarser level shows
 
 layout(local_size_x = kMultilayerTile, local_size_y = kMultilayerTile) in;
-layout(std430, set = 0, binding = 0) readonly buffer Levels { FilterLevel levels[]; };
-layout(std430, set = 0, binding = 1) readonly buffer Looks { FilterLook looks[]; };
-layout(std430, set = 0, binding = 2) readonly buffer Lists { uint lists[]; };
-layout(std430, set = 0, binding = 3) readonly buffer Vergences { float vergences[]; };
 layout(std430, set = 0, binding = 4) readonly buffer Colors { uvec2 colors[]; };
 layout(std430, set = 0, binding = 5) readonly buffer Coverages { float coverages[]; };
 layout(std430, set = 0, binding = 6) readonly buffer Shown { uint shown[]; };
 layout(set = 0, binding = 7, rgba32f) writeonly uniform image2D picture;
 layout(std430, set = 0, binding = 8) buffer Statistics { FrameStatistics statistics; };
-layout(push_constant) uniform Push { MultilayerAccumulatePush push; };
-
-// Four of a look's cells. Vectors, not arrays, so that they stay in registers.
-struct Cells {
-  uvec4 cursor, end;
-  vec4 head;             // vergence at the cursor; -1 at the end
-  vec4 weight;
-  vec4 coverage, alpha;  // what each list has added to the surface at hand
-};
-
-struct Lookup {
-  Cells a, b;
-  bool hasB;  // A bilinear one has only four.
-};
-
-const Cells kClosed = Cells(uvec4(0u), uvec4(0u), vec4(-1.0), vec4(0.0), vec4(0.0), vec4(0.0));
 
 // An interval of vergence in which two looks show.
 struct Interval {
@@ -55,62 +33,6 @@ struct Interval {
 
 float signedRadius(float vergence) { return push.cocScale * (push.focusVergence - vergence); }
 float vergenceOf(float c) { return push.focusVergence - c / push.cocScale; }
-float nearestOf(Cells at) { return max(max(at.head.x, at.head.y), max(at.head.z, at.head.w)); }
-float nearestOf(Lookup at) { return at.hasB ? max(nearestOf(at.a), nearestOf(at.b)) : nearestOf(at.a); }
-
-// Opens one list at its first fragment no nearer than a vergence.
-void openList(FilterLevel level, ivec2 cell, float nearest, out uint cursor, out uint end, out float head) {
-  const ivec2 inside = clamp(cell - level.first, ivec2(0), level.size - 1);
-  const uint list = level.firstList + uint(inside.y * level.size.x + inside.x);
-  cursor = min(lists[list], push.room);
-  end = min(lists[list + 1u], push.room);
-  head = -1.0;
-  for (; cursor < end; ++cursor) {
-    head = vergences[cursor];
-    if (head < nearest) return;
-    head = -1.0;
-  }
-}
-
-// Eight cells around a place, an eighth each.
-void openRing(FilterLevel level, vec2 place, float ring, float nearest, inout Lookup at) {
-  const vec2 centre = place + 0.5;  // rounds to the nearest cell
-  const float diagonal = 0.70710678 * ring;
-  at.hasB = true;
-  at.a.weight = at.b.weight = vec4(0.125);
-  openList(level, ivec2(floor(centre + vec2(ring, 0.0))), nearest, at.a.cursor.x, at.a.end.x, at.a.head.x);
-  openList(level, ivec2(floor(centre - vec2(ring, 0.0))), nearest, at.a.cursor.y, at.a.end.y, at.a.head.y);
-  openList(level, ivec2(floor(centre + vec2(0.0, ring))), nearest, at.a.cursor.z, at.a.end.z, at.a.head.z);
-  openList(level, ivec2(floor(centre - vec2(0.0, ring))), nearest, at.a.cursor.w, at.a.end.w, at.a.head.w);
-  openList(level, ivec2(floor(centre + vec2(diagonal, diagonal))), nearest, at.b.cursor.x, at.b.end.x, at.b.head.x);
-  openList(level, ivec2(floor(centre - vec2(diagonal, diagonal))), nearest, at.b.cursor.y, at.b.end.y, at.b.head.y);
-  openList(level, ivec2(floor(centre + vec2(diagonal, -diagonal))), nearest, at.b.cursor.z, at.b.end.z, at.b.head.z);
-  openList(level, ivec2(floor(centre - vec2(diagonal, -diagonal))), nearest, at.b.cursor.w, at.b.end.w, at.b.head.w);
-}
-
-Lookup opened(uint number, vec2 position, float nearest) {
-  const FilterLook look = looks[number];
-  const FilterLevel level = levels[look.level];
-  const vec2 place = (position - level.centre) / level.cellSize;
-  Lookup at = Lookup(kClosed, kClosed, false);
-  if (look.ring > 0.0) {
-    openRing(level, place, look.ring, nearest, at);
-    return at;
-  }
-  if (!kBilinear || number == 0u) {
-    openList(level, ivec2(floor(place + 0.5)), nearest, at.a.cursor.x, at.a.end.x, at.a.head.x);
-    at.a.weight = vec4(1.0, 0.0, 0.0, 0.0);
-    return at;
-  }
-  const ivec2 cell = ivec2(floor(place));
-  const vec2 f = place - vec2(cell);
-  at.a.weight = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
-  openList(level, cell, nearest, at.a.cursor.x, at.a.end.x, at.a.head.x);
-  openList(level, cell + ivec2(1, 0), nearest, at.a.cursor.y, at.a.end.y, at.a.head.y);
-  openList(level, cell + ivec2(0, 1), nearest, at.a.cursor.z, at.a.end.z, at.a.head.z);
-  openList(level, cell + ivec2(1, 1), nearest, at.a.cursor.w, at.a.end.w, at.a.head.w);
-  return at;
-}
 
 // What has been gathered of the surface at hand, and the vergence of its last fragment.
 Layer surface;
@@ -144,46 +66,48 @@ struct Part {
 };
 const Part kNoPart = Part(kNoLayer, 0.0);
 
-// Adds one list's fragments down to a vergence.
-void addFrom(inout uint cursor, uint end, inout float head, float cell, inout float coverage, inout float alpha,
-             float limit, inout Part part) {
-  while (head >= limit && head >= 0.0) {
-    const vec2 redGreen = unpackHalf2x16(colors[cursor].x), blueAlpha = unpackHalf2x16(colors[cursor].y);
-    const Layer fragment =
-        Layer(vec3(redGreen, blueAlpha.x), blueAlpha.y, kHasCoverage ? coverages[cursor] : blueAlpha.y);
-    Layer own = Layer(vec3(0.0), kHasCoverage ? alpha : coverage, coverage);
-    const float seen = cell * addBehind(own, fragment);
-    coverage = own.coverage;
-    alpha = own.alpha;
-    part.sum.color += seen * fragment.color;
-    part.sum.alpha += seen * fragment.alpha;
-    part.sum.coverage += seen * fragment.coverage;
-    part.radius += seen * fragment.coverage * signedRadius(head);
-    farthest = min(farthest, head);
-    ++cursor;
-    head = cursor < end ? vergences[cursor] : -1.0;
+void add(inout Part part, float seen, Layer fragment, float radius) {
+  part.sum.color += seen * fragment.color;
+  part.sum.alpha += seen * fragment.alpha;
+  part.sum.coverage += seen * fragment.coverage;
+  part.radius += seen * fragment.coverage * radius;
+}
+
+// Adds the fragment at the head of one cell to its look's part of the surface, and moves the cell on. The cell is chosen
+// first and then used, once: a loop for each cell would cost devices that run loops in lockstep as much for every cell that
+// has nothing to add.
+void addFragment(inout Lookup kept, inout Lookup fresh, uint cell, float nearest, inout Part ofKept, inout Part ofFresh) {
+  const bool isKept = (cell & kFreshA) == 0u;
+  Cells group = kept.a;
+  if (!isKept) group = fresh.a;
+  if (kRound && cell >= kKeptB) {
+    group = kept.b;
+    if (!isKept) group = fresh.b;
+  }
+  const uint k = cell & 3u;
+  const uint cursor = among(group.cursor, k);
+  const vec2 redGreen = unpackHalf2x16(colors[cursor].x), blueAlpha = unpackHalf2x16(colors[cursor].y);
+  const Layer fragment =
+      Layer(vec3(redGreen, blueAlpha.x), blueAlpha.y, kHasCoverage ? coverages[cursor] : blueAlpha.y);
+  const float coverage = among(group.coverage, k);
+  Layer own = Layer(vec3(0.0), kHasCoverage ? among(group.alpha, k) : coverage, coverage);
+  const float seen = among(group.weight, k) * addBehind(own, fragment);
+  const float radius = signedRadius(nearest);
+  const float toKept = isKept ? seen : 0.0, toFresh = seen - toKept;
+  add(ofKept, toKept, fragment, radius);
+  add(ofFresh, toFresh, fragment, radius);
+
+  const float head = cursor + 1u < among(group.end, k) ? vergences[cursor + 1u] : -1.0;
+  moveOn(kept.a, kKeptA, cell, head, own.coverage, own.alpha);
+  moveOn(fresh.a, kFreshA, cell, head, own.coverage, own.alpha);
+  if (kRound) {
+    moveOn(kept.b, kKeptB, cell, head, own.coverage, own.alpha);
+    moveOn(fresh.b, kFreshB, cell, head, own.coverage, own.alpha);
   }
 }
 
-void addCells(inout Cells at, float limit, inout Part part) {
-  addFrom(at.cursor.x, at.end.x, at.head.x, at.weight.x, at.coverage.x, at.alpha.x, limit, part);
-  addFrom(at.cursor.y, at.end.y, at.head.y, at.weight.y, at.coverage.y, at.alpha.y, limit, part);
-  addFrom(at.cursor.z, at.end.z, at.head.z, at.weight.z, at.coverage.z, at.alpha.z, limit, part);
-  addFrom(at.cursor.w, at.end.w, at.head.w, at.weight.w, at.coverage.w, at.alpha.w, limit, part);
-}
-
-void addLook(inout Lookup at, float limit, inout Part part) {
-  addCells(at.a, limit, part);
-  if (at.hasB) addCells(at.b, limit, part);
-}
-
-// Begins another surface.
-void forget(inout Lookup at) {
-  at.a.coverage = at.a.alpha = at.b.coverage = at.b.alpha = vec4(0.0);
-}
-
 // Adds to the surface what two looks show of a part of it. One share for all of it, by its mean blur: fragments of a
-// slanted surface are not equally far in both levels, and shares by each one's own blur would not sum to 1.
+// slanted surface are not equally far in both looks, and shares by each one's own blur would not sum to 1.
 void show(Part kept, Part fresh, Interval interval) {
   const float covered = kept.sum.coverage + fresh.sum.coverage;
   if (!(covered > 0.0)) return;
@@ -195,12 +119,19 @@ void show(Part kept, Part fresh, Interval interval) {
                            mix(fresh.sum.coverage, kept.sum.coverage, share)));
 }
 
-// Composites what two levels show in an interval. What of a surface reaches a little beyond is shown too: the next interval
-// begins where this one ends.
+// Composites what two looks show in an interval, fragment by fragment. What of a surface reaches a little beyond is shown
+// too: the next interval begins where this one ends.
 void walk(inout Lookup kept, inout Lookup fresh, Interval interval) {
   Part ofKept = kNoPart, ofFresh = kNoPart;
   for (;;) {
-    const float nearest = max(nearestOf(kept), nearestOf(fresh));
+    float nearest = -1.0;
+    uint cell = 0u;
+    findNearest(kept.a.head, kKeptA, nearest, cell);
+    findNearest(fresh.a.head, kFreshA, nearest, cell);
+    if (kRound) {
+      findNearest(kept.b.head, kKeptB, nearest, cell);
+      findNearest(fresh.b.head, kFreshB, nearest, cell);
+    }
     if (nearest < 0.0) break;
     const float blur = max(abs(signedRadius(nearest)), interval.leastBlur) / push.cocScale;
     const bool isOpen = ofKept.sum.coverage + ofFresh.sum.coverage > 0.0;
@@ -214,10 +145,8 @@ void walk(inout Lookup kept, inout Lookup fresh, Interval interval) {
       forget(fresh);
       if (transmittance < kOpaque) return;
     }
-    const float limit = nearest - push.epsilon * blur;
     farthest = nearest;
-    addLook(kept, limit, ofKept);
-    addLook(fresh, limit, ofFresh);
+    addFragment(kept, fresh, cell, nearest, ofKept, ofFresh);
   }
   show(ofKept, ofFresh, interval);
   forget(kept);
@@ -236,7 +165,7 @@ void main() {
   farthest = 3.4e38;
 
   // Looks are opened one after another: in front of the focal plane down to the narrowest, behind it up from the next.
-  Lookup kept = Lookup(kClosed, kClosed, false);
+  Lookup kept = kClosed;
   const uint nearCount = push.nearLooks + 1u, count = nearCount + push.farLooks;
   for (uint i = 0u; i < count && transmittance >= kOpaque; ++i) {
     const bool isFar = i >= nearCount;
@@ -245,7 +174,8 @@ void main() {
     const float border = sqrt(looks[number].own);
     Interval interval;
     interval.until = i + 1u == count ? 0.0 : vergenceOf(isFar ? border : -border);
-    interval.leastBlur = max(looks[min(fine + 1u, max(push.nearLooks, push.farLooks))].halfWidth, 2.0);
+    const FilterLook wider = looks[min(fine + 1u, max(push.nearLooks, push.farLooks))];
+    interval.leastBlur = max(wider.halfWidth, max(1.5 * levels[wider.level].cellSize, 2.0));
     interval.fineSquare = looks[fine].own;
     // The first look is alone, also for what it is followed with beyond its interval.
     interval.perSquare = i > 0u ? 1.0 / (looks[fine].outer - interval.fineSquare) : 0.0;
@@ -253,7 +183,7 @@ void main() {
     // A look is opened where it begins to show, or a little before, as far as nothing has been shown there yet.
     const float begin =
         isFar ? (1.0 - kOvershoot) * sqrt(interval.fineSquare) : -(1.0 + kOvershoot) * sqrt(looks[number].outer);
-    Lookup fresh = Lookup(kClosed, kClosed, false);
+    Lookup fresh = kClosed;
     if ((shownLooks & (1u << number)) != 0u) fresh = opened(number, position, min(vergenceOf(begin), farthest));
     walk(kept, fresh, interval);
     kept = fresh;

@@ -14,31 +14,52 @@ Layer fragmentAt(uint i) {
   return Layer(vec3(redGreen, blueAlpha.x), blueAlpha.y, kHasCoverage ? coverages[i] : blueAlpha.y);
 }
 
+// The fragment that is being made: the sum of four lists, what each has added, and how far it is.
+Layer sum = kNoLayer;
+vec4 coverage, alpha;  // of each list
+uint end;  // of the list
+float nearest, farthest;
+float covered, behind;  // Σ coverage, Σ coverage · (how much farther than the nearest)
+
+void write(uint target) {
+  if (target >= end) return;  // No further than was counted.
+  vergences[target] = covered > 0.0 ? max(nearest - behind / covered, farthest) : nearest;
+  colors[target] = uvec2(packHalf2x16(0.25 * sum.color.rg), packHalf2x16(0.25 * vec2(sum.color.b, sum.alpha)));
+  if (kHasCoverage) coverages[target] = 0.25 * sum.coverage;
+}
+
+void start() {
+  sum = kNoLayer;
+  coverage = alpha = vec4(0.0);
+  nearest = vergence;
+  covered = behind = 0.0;
+}
+
 void main() {
   const int list = openLists();
   if (list < 0) return;
   uint target = lists[list];
-  for (float nearest = nearestHead(); nearest >= 0.0 && target < push.room; nearest = nearestHead()) {
-    const float limit = mergeLimit(nearest);
-    Layer sum = kNoLayer;
-    float covered = 0.0, depth = 0.0;  // Σ coverage, Σ coverage · (how much farther than the nearest)
-    for (int k = 0; k < 4; ++k) {
-      Layer own = kNoLayer;
-      while (heads[k] >= limit && heads[k] >= 0.0) {
-        const Layer fragment = fragmentAt(cursors[k]);
-        const float seen = addBehind(own, fragment) * fragment.coverage;
-        covered += seen;
-        depth += seen * (nearest - heads[k]);
-        ++cursors[k];
-        settle(k);
-      }
-      sum.color += 0.25 * own.color;
-      sum.alpha += 0.25 * own.alpha;
-      sum.coverage += 0.25 * own.coverage;
+  end = min(lists[list + 1], push.room);
+  bool isFirst = true;
+  while (advance()) {
+    if (!isKept(vergence)) continue;
+    if (startsAnother()) {
+      if (!isFirst) write(target++);
+      start();
+      isFirst = false;
     }
-    vergences[target] = covered > 0.0 ? max(nearest - depth / covered, limit) : nearest;
-    colors[target] = uvec2(packHalf2x16(sum.color.rg), packHalf2x16(vec2(sum.color.b, sum.alpha)));
-    if (kHasCoverage) coverages[target] = sum.coverage;
-    ++target;
+    farthest = vergence;
+    const Layer fragment = fragmentAt(taken);
+    Layer own = Layer(vec3(0.0), alpha[tap], coverage[tap]);
+    const float seen = addBehind(own, fragment);
+    const bvec4 isIt = equal(uvec4(0u, 1u, 2u, 3u), uvec4(tap));
+    coverage = mix(coverage, vec4(own.coverage), isIt);
+    alpha = mix(alpha, vec4(own.alpha), isIt);
+    sum.color += seen * fragment.color;
+    sum.alpha += seen * fragment.alpha;
+    sum.coverage += seen * fragment.coverage;
+    covered += seen * fragment.coverage;
+    behind += seen * fragment.coverage * (nearest - vergence);
   }
+  if (!isFirst) write(target);
 }

@@ -10,11 +10,9 @@ SHARED_NAMESPACE_BEGIN
 
 SHARED_CONST uint kMultilayerTile = 8u;      // cells; work group side
 SHARED_CONST uint kMaxFilterLevels = 14u;    // 0 … 13: filters up to 8192 px wide
-SHARED_CONST uint kListLengthMost = 64u;     // fragments a pixel that sorting can keep
-// Steps that sorting one list may take, and what of them is left for putting what was found in order: devices may end loops
-// after 65 535 iterations, silently.
+// Visits of nodes and shifts that sorting one list may take: devices may end loops after 65 535 iterations, silently. Enough
+// for lists of 1700 fragments in the worst order, of which 16 are kept.
 SHARED_CONST uint kSortBudget = 60000u;
-SHARED_CONST uint kSortReserve = 2000u;
 
 SHARED_CONST uint kMaxLooks = 32u;           // a bit each in the tiles' masks
 SHARED_CONST float kOvershoot = 0.5f;        // of |c|: how far a surface is followed into the next levels' interval
@@ -77,7 +75,6 @@ struct MultilayerAccumulatePush {
   uint room;
   float cocScale;       // K, px·m
   float focusVergence;  // 1/m
-  float epsilon;
   float linkDistance;   // fragments with no wider gap, as a share of their blur, are of one surface
   float red, green, blue;  // background
   uint nearLooks, farLooks;    // widest looks that show in front of and behind the focal plane

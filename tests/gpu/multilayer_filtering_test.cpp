@@ -2,52 +2,14 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <limits>
 
 #include "engine/metrics.h"
-#include "tests/support/gpu/gpu_test.h"
+#include "multilayer_filtering_fixture.h"
 #include "tests/support/gpu/spot.h"
-#include "tests/support/gpu/test_scenes.h"
 
 namespace {
 
-using passes::ParameterSet;
-using support::render;
-
-constexpr const char* kName = "multilayer_filtering";
-
-const glm::vec3 kColor(0.25f, 3.0f, 0.05f);
-
-std::string described(const ParameterSet& set) {
-  std::string text;
-  for (const auto& [name, value] : set) text += ", " + name + " " + passes::toString(value);
-  return text;
-}
-
-ParameterSet with(ParameterSet set, const ParameterSet& more) {
-  for (const auto& [name, value] : more) set[name] = value;
-  return set;
-}
-
-/// The paper's filter configurations, and ours.
-std::vector<ParameterSet> configurations() {
-  const auto steps = [](int64_t mip, int64_t stack) -> ParameterSet {
-    return {{"mipSteps", mip}, {"stackSteps", stack}};
-  };
-  return {{},          steps(1, 3),  steps(2, 2), steps(4, 0), steps(0, -1), steps(2, -1),
-          steps(0, 4), steps(13, 0), {{"antialiasing", std::string("2x2")}}};
-}
-
-class MultilayerFiltering : public support::GpuTest {
- protected:
-  host::Rendering rendering(const engine::Scene& scene, const host::Shot& shot, const ParameterSet& parameters = {}) {
-    host::Renderer renderer(support::device(), scene, std::nullopt);
-    return render(renderer, shot, kName, parameters);
-  }
-  engine::FloatImage picture(const engine::Scene& scene, const host::Shot& shot, const ParameterSet& parameters = {}) {
-    return rendering(scene, shot, parameters).color;
-  }
-};
+using namespace multilayer_test;
 
 /// A plane through the focal plane that fills the picture, of constant colour; far behind it everything is magenta.
 engine::Scene slantedPlane(double slope) {
@@ -60,16 +22,6 @@ engine::Scene slantedPlane(double slope) {
   support::addQuad(scene, {corner(-0.8, -1), corner(0.8, -1), corner(0.8, 1), corner(-0.8, 1)}, wall);
   support::addFacingQuad(scene, 90.0, 0.0, 0.0, 199.0, 199.0, support::addMaterial(scene, {9, 0, 9, 1}));
   return scene;
-}
-
-double distanceFrom(const engine::FloatImage& picture, const glm::vec3& color) {
-  double largest = 0.0;
-  for (std::size_t i = 0; i < picture.pixelCount(); ++i) {
-    for (int c = 0; c < 3; ++c) {
-      largest = std::max(largest, std::abs(double(picture.samples[4 * i + c]) / double(color[c]) - 1.0));
-    }
-  }
-  return largest;
 }
 
 // At every level and configuration, and across levels: nothing of what is behind shows through.
@@ -91,7 +43,8 @@ TEST_F(MultilayerFiltering, OpaqueSurfacesStayOpaque) {
         for (const auto& variant : variants) {
           const auto parameters = with(configuration, variant);
           const auto image = render(renderer, shot, kName, parameters).color;
-          EXPECT_LE(distanceFrom(image, kColor), 1e-3) << "slope " << slope << ", aperture " << aperture << described(parameters);
+          EXPECT_LE(distanceFrom(image, kColor), 1e-3)
+              << "slope " << slope << ", aperture " << aperture << described(parameters);
         }
       }
     }
@@ -148,8 +101,9 @@ TEST_F(MultilayerFiltering, BlurIsAsWideAsTheCircleOfConfusion) {
   shot.lens.apertureRadius = 0.2;
   for (const double depth : {1.9, 1.75, 1.5, 1.25, 2.5, 4.0, 9.0}) {
     const double radius = std::abs(support::thinLensRadius(shot, depth));
-    for (const auto& configuration : {ParameterSet{}, ParameterSet{{"mipSteps", int64_t{0}}}, ParameterSet{{"mipSteps", int64_t{2}}},
-                                      ParameterSet{{"antialiasing", std::string("2x2")}}}) {
+    for (const auto& configuration :
+         {ParameterSet{}, ParameterSet{{"mipSteps", int64_t{0}}}, ParameterSet{{"mipSteps", int64_t{2}}},
+          ParameterSet{{"antialiasing", std::string("2x2")}}}) {
       // How a light lies on a mip map's cells widens or narrows its blur: the mean over all ways is what counts.
       double variance = 0.0;
       for (int offset = 0; offset < 4; ++offset) {
@@ -163,48 +117,6 @@ TEST_F(MultilayerFiltering, BlurIsAsWideAsTheCircleOfConfusion) {
       EXPECT_NEAR(std::sqrt(variance), expected, 0.03 * expected) << depth << described(configuration);
     }
   }
-}
-
-// A focus pull from before everything to behind everything: neighbouring frames change evenly, although levels come and go.
-TEST_F(MultilayerFiltering, FocusPullsDoNotPop) {
-  host::Renderer renderer(support::device(), support::layeredScene(), std::nullopt);
-  auto shot = support::smallShot(96, 54);
-  shot.lens.apertureRadius = 0.05;
-  const auto largest = [&](const char* technique, const ParameterSet& parameters) {
-    std::vector<engine::FloatImage> frames;
-    double change = 0.0;
-    for (int step = 0; step < 60; ++step) {
-      shot.lens.focusDistance = 1.0 / (1.6 - 1.55 * step / 59.0);
-      frames.push_back(render(renderer, shot, technique, parameters).color);
-      if (frames.size() < 3) continue;
-      for (std::size_t i = 0; i < frames[0].samples.size(); ++i) {
-        const auto at = [&](std::size_t frame) { return std::min(double(frames[frame].samples[i]), 1.0); };
-        change = std::max(change, std::abs(at(2) - 2.0 * at(1) + at(0)));
-      }
-      frames.erase(frames.begin());
-    }
-    return change;
-  };
-  const double reference = largest("accumulation", {{"lensSamples", int64_t{64}}, {"viewsPerFrame", int64_t{64}}});
-  const double blended = largest(kName, {}), stepped = largest(kName, {{"interpolateLevels", false}});
-  std::printf("focus pull, largest second difference: %.3f, without interpolation %.3f, accumulation %.3f\n", blended,
-              stepped, reference);
-  EXPECT_LE(blended, 0.2);
-  EXPECT_GE(stepped, 0.6);
-}
-
-TEST_F(MultilayerFiltering, TheLensesLimitOfBlurIsKeptAndCounted) {
-  auto shot = support::smallShot(96, 96);
-  shot.lens.apertureRadius = 0.5;
-  shot.lens.maxCocRadius = 5.0 / 96.0;
-  const auto limited = rendering(support::lightScene(6.0, 4.0, support::pixelsPerTangent(shot)), shot, {{"mipSteps", int64_t{0}}});
-  const auto spot = support::measureSpot(limited.color);
-  EXPECT_NEAR(std::sqrt(spot.varianceX), std::sqrt(0.25 * 25.0 + 16.0 / 12.0), 0.1);
-  EXPECT_EQ(limited.statistics.clampedCoc, 16u);
-  shot.lens.maxCocRadius = 0.0;
-  const auto free = rendering(support::lightScene(6.0, 4.0, support::pixelsPerTangent(shot)), shot, {{"mipSteps", int64_t{0}}});
-  EXPECT_GT(support::measureSpot(free.color).varianceX, 2.0 * spot.varianceX);
-  EXPECT_EQ(free.statistics.clampedCoc, 0u);
 }
 
 /// The largest change of slope along the picture's rows: of what stands beside an edge that recedes through focus.
@@ -277,8 +189,10 @@ TEST_F(MultilayerFiltering, TiltedPanesCoverWhatIsBehindThem) {
   engine::Scene scene;
   support::addFacingQuad(scene, 6.0, 0.0, 0.0, 19.0, 19.0, support::addMaterial(scene, {wall, 1.0f}));
   const auto tilted = [&](float depth, uint32_t material) {
-    support::addQuad(scene, {glm::vec3(-9, -9, -depth - 0.8f), {9, -9, -depth - 0.8f}, {9, 9, -depth + 0.8f}, {-9, 9, -depth + 0.8f}},
-                     material);
+    support::addQuad(
+        scene,
+        {glm::vec3(-9, -9, -depth - 0.8f), {9, -9, -depth - 0.8f}, {9, 9, -depth + 0.8f}, {-9, 9, -depth + 0.8f}},
+        material);
   };
   tilted(3.5f, support::addMaterial(scene, {red, 0.5f}));
   tilted(2.0f, support::addMaterial(scene, {green, 0.25f}));
@@ -375,44 +289,10 @@ TEST_F(MultilayerFiltering, InsidesOfSolidsAreLeftOut) {
   EXPECT_NEAR(psnrOf("outer"), psnrOf("front"), 0.01);
 
   engine::Scene sheet;  // seen from behind
-  support::addQuad(sheet, {glm::vec3(-9, -9, -3), {-9, 9, -3}, {9, 9, -3}, {9, -9, -3}}, support::addMaterial(sheet, {kColor, 1.0f}));
+  support::addQuad(sheet, {glm::vec3(-9, -9, -3), {-9, 9, -3}, {9, 9, -3}, {9, -9, -3}},
+                   support::addMaterial(sheet, {kColor, 1.0f}));
   EXPECT_LE(distanceFrom(picture(sheet, shot), kColor), 1e-3);
   EXPECT_GT(distanceFrom(picture(sheet, shot, {{"faces", std::string("front")}}), kColor), 0.5);
-}
-
-// Room for a hundredth of what there is: every pixel keeps its nearest surface, what is missing is counted, and the next
-// frame has room for all.
-TEST_F(MultilayerFiltering, TooLittleRoomKeepsTheNearest) {
-  host::Renderer renderer(support::device(), support::layeredScene(), std::nullopt);
-  const auto shot = support::smallShot(160, 90);
-  host::RenderOptions options;
-  options.technique = kName;
-  const auto whole = renderer.render(shot, options);
-  const double pixels = 160.0 * 90.0;
-  const auto nodes = static_cast<float>(whole.statistics.fragmentNodes / pixels);
-
-  options.fixedRoom = host::ListRoom{.fragmentNodes = 0.01f * nodes, .listFragments = 9.0f};
-  const auto few = renderer.render(shot, options);
-  EXPECT_EQ(few.statistics.fragmentNodes, whole.statistics.fragmentNodes);
-  EXPECT_GT(few.statistics.fragmentNodesDropped, whole.statistics.fragmentNodes * 9u / 10u);
-  EXPECT_EQ(support::nonFiniteCount(few.color), 0u);
-  // Only what is hidden is missing: that is all of the technique with lists of one fragment.
-  options.fixedRoom.reset();
-  options.parameters = {{"listLength", int64_t{1}}};
-  const auto nearest = renderer.render(shot, options);
-  support::keepPicture(few.color, "multilayer_few_nodes");
-  EXPECT_GE(engine::compareImages(few.color, nearest.color).psnr, 30.0);
-
-  options.parameters = {};
-  options.fixedRoom = host::ListRoom{.fragmentNodes = 9.0f, .listFragments = 0.01f * static_cast<float>(whole.statistics.listFragments / pixels)};
-  const auto dropped = renderer.render(shot, options);
-  EXPECT_EQ(support::nonFiniteCount(dropped.color), 0u);
-  EXPECT_GT(dropped.statistics.listFragmentsDropped, 0u);
-
-  options.fixedRoom = host::ListRoom{.fragmentNodes = 0.01f * nodes, .listFragments = 0.05f};
-  (void)renderer.render(shot, options);
-  options.fixedRoom.reset();
-  EXPECT_TRUE(renderer.render(shot, options).color.samples == whole.color.samples);
 }
 
 // A bar beyond the picture blurs into it: with a border it is there, without it is lost.
@@ -430,66 +310,6 @@ TEST_F(MultilayerFiltering, TheBorderHoldsWhatBlursIntoThePicture) {
     return engine::compareImages(render(renderer, shot, kName, {{"border", border}}).color, reference).psnr;
   };
   EXPECT_GE(psnrOf(1.0), psnrOf(0.0) + 8.0);
-}
-
-struct Extreme {
-  const char* what;
-  int width = 48, height = 27;
-  double aperture = 0.05, focus = 2.0;
-  ParameterSet parameters = {};
-};
-
-TEST_F(MultilayerFiltering, ExtremesStayFiniteAndConstant) {
-  const std::vector<Extreme> extremes = {
-      {"one pixel", 1, 1},
-      {"a row", 67, 1},
-      {"a column", 1, 67},
-      {"prime sizes", 101, 53},
-      {"tiny aperture", 48, 27, 1e-6},
-      {"focus close by", 48, 27, 0.05, 1e-3},
-      {"focus at the near plane", 48, 27, 0.001, 0.01},
-      {"focus at infinity", 48, 27, 0.05, std::numeric_limits<double>::infinity()},
-      {"focus far away", 48, 27, 0.05, 1e7},
-      {"blur as wide as the picture", 48, 27, 0.7},
-      {"blur of four times the picture's width", 48, 27, 3.0},
-      {"that, mip steps only", 48, 27, 3.0, 2.0, {{"mipSteps", int64_t{13}}}},
-      {"that, many stack steps", 24, 13, 3.0, 2.0, {{"mipSteps", int64_t{0}}, {"stackSteps", int64_t{10}}}},
-      {"one level", 48, 27, 0.2, 2.0, {{"mipSteps", int64_t{0}}, {"stackSteps", int64_t{0}}}},
-      {"one fragment", 48, 27, 0.2, 2.0, {{"listLength", int64_t{1}}}},
-      {"64 fragments", 48, 27, 0.2, 2.0, {{"listLength", int64_t{64}}}},
-      {"nothing merged", 48, 27, 0.2, 2.0, {{"epsilon", 0.0}, {"linkDistance", 0.0}}},
-      {"all merged", 48, 27, 0.2, 2.0, {{"epsilon", 4.0}, {"linkDistance", 4.0}}},
-      {"finer pixels", 48, 27, 0.2, 2.0, {{"antialiasing", std::string("4x4")}}},
-  };
-  host::Renderer renderer(support::device(), support::constantScene(kColor), std::nullopt);
-  for (const Extreme& extreme : extremes) {
-    auto shot = support::smallShot(extreme.width, extreme.height);
-    shot.background = {kColor.x, kColor.y, kColor.z};
-    shot.lens.apertureRadius = extreme.aperture;
-    shot.lens.focusDistance = extreme.focus;
-    const auto image = render(renderer, shot, kName, extreme.parameters).color;
-    EXPECT_EQ(support::nonFiniteCount(image), 0u) << extreme.what;
-    EXPECT_LE(distanceFrom(image, kColor), 1e-3) << extreme.what;
-  }
-}
-
-// A thousand surfaces behind one pixel.
-TEST_F(MultilayerFiltering, LongListsKeepTheNearest) {
-  engine::Scene scene;
-  const uint32_t front = support::addMaterial(scene, {kColor, 1.0f}), rest = support::addMaterial(scene, {0, 9, 0, 1});
-  for (int i = 0; i < 1000; ++i) support::addFacingQuad(scene, 1.5 + 0.01 * i, 0.0, 0.0, 20.0, 20.0, i == 0 ? front : rest);
-  const auto shot = support::smallShot(24, 14);
-  for (const int64_t length : {1, 4, 64}) {
-    const auto frame = rendering(scene, shot, {{"listLength", length}});
-    EXPECT_LE(distanceFrom(frame.color, kColor), 1e-3) << length;
-    EXPECT_EQ(frame.statistics.unsortedLists, 0u);
-  }
-}
-
-TEST_F(MultilayerFiltering, AnEmptySceneIsItsBackground) {
-  auto shot = support::smallShot(32, 18);
-  shot.background = {kColor.x, kColor.y, kColor.z};
-  EXPECT_LE(distanceFrom(picture({}, shot), kColor), 1e-6);
 }
 
 }  // namespace

@@ -7,10 +7,10 @@ namespace support {
 using rendergraph::Usage;
 
 FilledBuffer::FilledBuffer(std::span<const std::byte> content)
-    : buffer_(engine::makeBuffer(device(), content.size(),
-                                 VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
-                                     VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-                                 rendergraph::MemoryKind::device, "test buffer")) {
+    : buffer_(engine::makeBuffer(
+          device(), content.size(),
+          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+          rendergraph::MemoryKind::device, "test buffer")) {
   engine::upload(device(), buffer_, content);
 }
 

@@ -19,20 +19,26 @@ LevelRequest request(double nearCoc, double farCoc) {
 
 TEST(FilterLevels, AreAsManyAsTheBlurAsksFor) {
   EXPECT_EQ(planLevels(request(0.0, 0.0)).levels.size(), 1u);
-  std::size_t before = 1;
-  for (const double radius : {0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 1000.0, 1e30}) {
-    const auto plan = planLevels(request(radius, 0.0));
-    EXPECT_GE(plan.levels.size(), before) << radius;
-    EXPECT_LE(plan.levels.size(), shared::kMaxFilterLevels) << radius;
-    before = plan.levels.size();
-    if (radius > 1000.0) continue;
-    EXPECT_GE(std::sqrt(plan.levels.back().own), radius) << "the coarsest level is wide enough";
-    EXPECT_LT(std::sqrt(plan.levels.back().inner), radius) << "and needed";
+  for (const auto kernel : {Kernel::round, Kernel::box}) {
+    std::size_t before = 1;
+    for (const double radius : {0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 1000.0, 1e30}) {
+      auto wanted = request(radius, 0.0);
+      wanted.kernel = kernel;
+      const auto plan = planLevels(wanted);
+      EXPECT_GE(plan.levels.size(), before) << radius;
+      EXPECT_LE(plan.levels.size(), shared::kMaxFilterLevels) << radius;
+      EXPECT_EQ(plan.looks.back().level + 1, plan.levels.size()) << "no level is made that nothing looks up";
+      before = plan.levels.size();
+      if (radius > 1000.0) continue;
+      EXPECT_GE(std::sqrt(plan.looks.back().own), radius) << "the widest look is wide enough";
+      EXPECT_LT(std::sqrt(plan.looks.back().inner), radius) << "and needed";
+    }
   }
 }
 
 TEST(FilterLevels, FollowTheConfiguration) {
   auto wanted = request(20.0, 5.0);
+  wanted.kernel = Kernel::box;
   for (const auto& [mip, stack] : {std::pair(1, 3), std::pair(2, 2), std::pair(4, 0), std::pair(0, 4)}) {
     wanted.mipSteps = mip;
     wanted.stackSteps = stack;
@@ -87,7 +93,9 @@ TEST(FilterLevels, WindowsHoldWhatIsLookedUp) {
         EXPECT_GT(level.size.y, 0);
         lists += static_cast<uint32_t>(level.size.x * level.size.y) + 1;
         if (border < 100.0) continue;
-        const auto cell = [&](double place) { return static_cast<int>(std::floor((place - level.centre) / level.cellSize)); };
+        const auto cell = [&](double place) {
+          return static_cast<int>(std::floor((place - level.centre) / level.cellSize));
+        };
         EXPECT_LE(level.first.x, cell(0.5));
         EXPECT_GE(level.first.x + level.size.x - 1, cell(319.5));
         EXPECT_GE(level.first.y + level.size.y - 1, cell(180.5));
@@ -108,30 +116,58 @@ TEST(FilterLevels, WindowsHoldWhatIsLookedUp) {
   }
 }
 
-// Shares of levels sum to 1 everywhere: one's outer border is where the next shows alone.
+// Shares of looks sum to 1 everywhere: one's outer border is where the next shows alone.
 TEST(FilterLevels, BordersMeet) {
   for (const auto match : {LevelMatch::moments, LevelMatch::diameter}) {
-    auto wanted = request(30.0, 5.0);
-    wanted.match = match;
-    const auto plan = planLevels(wanted);
-    for (std::size_t i = 1; i < plan.levels.size(); ++i) {
-      EXPECT_EQ(plan.levels[i - 1].outer, plan.levels[i].own);
-      EXPECT_EQ(plan.levels[i].inner, plan.levels[i - 1].own);
-      EXPECT_GT(plan.levels[i].own, plan.levels[i - 1].own);
-      if (match == LevelMatch::diameter) {
-        EXPECT_FLOAT_EQ(std::sqrt(plan.levels[i].own), std::exp2(static_cast<float>(i) - 1.0f)) << "2|c| = 2^L";
+    for (const auto kernel : {Kernel::round, Kernel::box}) {
+      for (const int mip : {0, 1, 3}) {
+        auto wanted = request(30.0, 5.0);
+        wanted.match = match;
+        wanted.kernel = kernel;
+        wanted.mipSteps = mip;
+        const auto plan = planLevels(wanted);
+        for (std::size_t i = 1; i < plan.looks.size(); ++i) {
+          EXPECT_EQ(plan.looks[i - 1].outer, plan.looks[i].own);
+          EXPECT_EQ(plan.looks[i].inner, plan.looks[i - 1].own);
+          EXPECT_GT(plan.looks[i].own, plan.looks[i - 1].own);
+          EXPECT_GE(plan.looks[i].level, plan.looks[i - 1].level);
+          if (match == LevelMatch::diameter) {
+            EXPECT_FLOAT_EQ(std::sqrt(plan.looks[i].own), std::exp2(static_cast<float>(i) - 1.0f)) << "2|c| = 2^L";
+          }
+        }
       }
     }
   }
 }
 
+// Eight boxes around the pixel have the second moment of the disc that they stand for.
+TEST(FilterLevels, RingsHaveTheMomentOfADisc) {
+  const auto plan = planLevels(request(100.0, 5.0));
+  int rings = 0;
+  for (const auto& look : plan.looks) {
+    if (look.ring == 0.0f) continue;
+    ++rings;
+    const auto& level = plan.levels[look.level];
+    const double width = 2.0 * level.centre, ring = double(look.ring) * level.cellSize;
+    const double variance = (width * width - 1.0) / 12.0 + 0.5 * ring * ring + level.cellSize * level.cellSize / 12.0;
+    EXPECT_NEAR(variance, 0.25 * look.own + 1.0 / 12.0, 0.2 * variance) << "but for taps on whole cells";
+    EXPECT_LT(ring, 0.8 * width) << "no hole in the middle";
+  }
+  EXPECT_GE(rings, 4);
+}
+
 TEST(FilterLevels, DropOnlyWhatNothingShows) {
   const auto plan = planLevels(request(30.0, 5.0));
-  EXPECT_GT(plan.nearLevels, plan.farLevels);
-  for (std::size_t i = 1; i < plan.levels.size(); ++i) {
-    const auto& level = plan.levels[i];
-    EXPECT_LT(level.dropWithin, std::sqrt(level.inner) + 1e-6f) << "what the level shows is kept";
-    EXPECT_EQ(level.highest > 30.0f, i <= plan.farLevels) << "behind the focal plane nothing is as blurred";
+  EXPECT_GT(plan.nearLooks, plan.farLooks);
+  for (std::size_t i = plan.looks.size(); i-- > 1;) {
+    const auto& look = plan.looks[i];
+    const auto& level = plan.levels[look.level];
+    EXPECT_LT(level.dropWithin, std::sqrt(look.inner) + 1e-6f) << "what the look shows is kept";
+    if (i <= plan.farLooks) {
+      EXPECT_GT(level.highest, 1e30f);
+    } else if (look.level > plan.looks[plan.farLooks].level) {
+      EXPECT_LT(level.highest, 30.0f) << "nothing there is as blurred";
+    }
     EXPECT_LT(level.lowest, -30.0f) << "coarser levels are made of what is nearer";
   }
   auto all = request(30.0, 5.0);

@@ -433,7 +433,8 @@ void FakeBackend::copyBuffer(const CommandStream& stream, VkBuffer from, VkBuffe
 }
 void FakeBackend::fillBuffer(const CommandStream& stream, VkBuffer to, uint32_t word, VkDeviceSize bytes) {
   if (silent) return;
-  note(stream, "fill " + std::to_string(word) + (bytes == VK_WHOLE_SIZE ? "" : " x" + std::to_string(bytes)), {idOf(to)});
+  note(stream, "fill " + std::to_string(word) + (bytes == VK_WHOLE_SIZE ? "" : " x" + std::to_string(bytes)),
+       {idOf(to)});
 }
 void FakeBackend::updateBuffer(const CommandStream& stream, VkBuffer to, VkDeviceSize offset,
                                std::span<const std::byte> bytes) {
