@@ -56,9 +56,9 @@ struct SceneDraw {
   /// FrameStatistics::transparentDropped; the host then renders again with more.
   float transparentNodesPerPixel = 4.0f;
   /// The same for fragments of all surfaces, of techniques that keep every one: of linked lists, beyond the first of each
-  /// pixel; and of lists compacted and filtered. See FrameStatistics::fragmentNodesDropped and listFragmentsDropped.
-  float fragmentNodesPerPixel = 2.0f;
-  float listFragmentsPerPixel = 6.0f;
+  /// list; and of lists compacted and filtered. A mean over the picture's pixels, whatever lists there are. See FrameStatistics::fragmentNodesDropped and listFragmentsDropped.
+  float fragmentNodesPerPixel = 1.0f;
+  float listFragmentsPerPixel = 4.0f;
 };
 
 }  // namespace passes

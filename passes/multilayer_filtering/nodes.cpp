@@ -87,7 +87,7 @@ uint32_t FramePlan::reservedNodes() const {
 }
 
 uint32_t FramePlan::nodeRoom() const {
-  return room(inputs.scene->fragmentNodesPerPixel, listExtent(), shared::kFragmentNextMask - 1 - reservedNodes());
+  return room(inputs.scene->fragmentNodesPerPixel, inputs.extent, shared::kFragmentNextMask - 1 - reservedNodes());
 }
 
 uint32_t FramePlan::listRoom() const {

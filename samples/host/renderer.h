@@ -45,7 +45,7 @@ using Progress = std::function<void(uint32_t done, uint32_t total)>;
 
 /// Room in per-pixel lists, in fragments a pixel; see passes::SceneDraw.
 struct ListRoom {
-  float fragmentNodes = 2.0f, listFragments = 6.0f;
+  float fragmentNodes = 1.0f, listFragments = 4.0f;
 };
 
 struct RenderOptions {

@@ -17,6 +17,7 @@ ordered_json rowsOf(host::Renderer& renderer, const host::Shot& shot, const std:
       {},
       {{"antialiasing", std::string("2x2")}},
       {{"antialiasing", std::string("2x2")}, {"listLength", int64_t{8}}},
+      {{"kernel", std::string("box")}},
       {{"mipSteps", int64_t{0}}},
       {{"mipSteps", int64_t{2}}},
       {{"mipSteps", int64_t{13}}},
