@@ -46,7 +46,7 @@ struct EmitTraits {
   Surfaces surfaces = Surfaces::opaque;
   bool testsDepth = true;
   bool writesDepth = true;
-  VkCullModeFlags cull = VK_CULL_MODE_NONE;
+  bool frontOnly = false;  ///< Leaves out what faces away; by the shader, which knows of mirrored objects.
 };
 
 EmitTraits traitsOf(SceneEmit emit) {
@@ -77,7 +77,7 @@ EmitTraits traitsOf(SceneEmit emit) {
               .surfaces = Surfaces::all,
               .testsDepth = false,
               .writesDepth = false,
-              .cull = emit == SceneEmit::fragmentList ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT};
+              .frontOnly = emit == SceneEmit::frontFragmentList};
   }
   return {};
 }
@@ -226,7 +226,10 @@ SceneRenderer::EmitPipeline& SceneRenderer::pipelineFor(const SceneDrawRequest& 
   made->layout = {device_.handle(), layout, device_.vk().vkDestroyPipelineLayout};
 
   const EmitTraits traits = traitsOf(request.emit);
-  const bool discards = masked || (traits.surfaces == Surfaces::blended && traits.writesDepth);
+  // Constant 0 of the fragment shaders: whether they may discard, or, for lists, leave out what faces away.
+  const bool discards = traits.surfaces == Surfaces::all
+                            ? traits.frontOnly
+                            : masked || (traits.surfaces == Surfaces::blended && traits.writesDepth);
   const std::array<uint32_t, 2> words = {discards ? VK_TRUE : VK_FALSE, lit_ ? VK_TRUE : VK_FALSE};
   const std::array<VkSpecializationMapEntry, 2> entries = {{{0, 0, sizeof(uint32_t)}, {1, 4, sizeof(uint32_t)}}};
   const VkSpecializationInfo specialization{2, entries.data(), sizeof words, words.data()};
@@ -235,7 +238,7 @@ SceneRenderer::EmitPipeline& SceneRenderer::pipelineFor(const SceneDrawRequest& 
   desc.vertex = scene_scene_vert;
   desc.geometry = traits.geometry;
   desc.fragment = traits.fragment;
-  desc.state = {.cull = traits.cull, .depthTest = traits.testsDepth, .depthWrite = traits.writesDepth};
+  desc.state = {.depthTest = traits.testsDepth, .depthWrite = traits.writesDepth};
   desc.specialization = &specialization;
   desc.colorFormats = request.colorFormats;
   desc.depthFormat = request.depthFormat;

@@ -56,7 +56,8 @@ struct SceneDraw {
   /// FrameStatistics::transparentDropped; the host then renders again with more.
   float transparentNodesPerPixel = 4.0f;
   /// The same for fragments of all surfaces, of techniques that keep every one: of linked lists, beyond the first of each
-  /// list; and of lists compacted and filtered. A mean over the picture's pixels, whatever lists there are. See FrameStatistics::fragmentNodesDropped and listFragmentsDropped.
+  /// list; and of lists compacted and filtered. A mean over the picture's pixels, whatever lists there are. See
+  /// FrameStatistics::fragmentNodesDropped and listFragmentsDropped.
   float fragmentNodesPerPixel = 1.0f;
   float listFragmentsPerPixel = 4.0f;
 };

@@ -86,7 +86,7 @@ double ringFor(const LevelRequest& request, const Steps& steps, int level, doubl
   return std::sqrt(std::max(2.0 * ofTaps, 0.0)) / cell;
 }
 
-/// Variance along an axis of a ring of boxes as it is: taps fall on whole cells (openRing() in accumulate.comp).
+/// Variance along an axis of a ring of boxes as it is: taps fall on whole cells (openRing() in look.glsl).
 double ringVariance(const Steps& steps, int level, double ring) {
   const double cell = steps.cellSize(level), diagonal = ring * std::numbers::sqrt2 / 2.0;
   const int phases = static_cast<int>(cell);

@@ -2,7 +2,6 @@
 #include "passes/multilayer_filtering/multilayer_filtering.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "passes/lens_samples.h"
 #include "passes/make_technique.h"

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <span>
 #include <string>
-#include <vector>
 
 #include "passes/lens_view.h"
 #include "passes/prefix_sum.h"
@@ -22,12 +22,10 @@
 namespace passes::multilayer_filtering {
 namespace {
 
-using rendergraph::Binding;
 using rendergraph::Buffer;
 using rendergraph::ComputeProgram;
 using rendergraph::Graph;
 using rendergraph::Image;
-using rendergraph::Pass;
 using rendergraph::PassContext;
 using rendergraph::PassKind;
 using rendergraph::Usage;
@@ -136,7 +134,8 @@ LinkedLists declareCollect(Graph& graph, const FramePlan& plan) {
 namespace {
 
 FragmentLists declareUpload(Graph& graph, const FramePlan& plan) {
-  const auto& [levels, looks] = std::pair(plan.levels.levels, plan.levels.looks);
+  const auto& levels = plan.levels.levels;
+  const auto& looks = plan.levels.looks;
   FragmentLists lists;
   lists.levels = graph.createBuffer(named("levels"), {.size = std::as_bytes(std::span(levels)).size()});
   lists.looks = graph.createBuffer(named("looks"), {.size = std::as_bytes(std::span(looks)).size()});
@@ -150,7 +149,7 @@ FragmentLists declareUpload(Graph& graph, const FramePlan& plan) {
   auto pass = graph.addPass(named("upload"), PassKind::transfer);
   lists.levels = pass.write(lists.levels, Usage::transferDestination);
   lists.looks = pass.write(lists.looks, Usage::transferDestination);
-  pass.record([lists, levels = levels, looks = looks](PassContext& context) {
+  pass.record([lists, levels, looks](PassContext& context) {
     context.updateBuffer(lists.levels, std::as_bytes(std::span(levels)));
     context.updateBuffer(lists.looks, std::as_bytes(std::span(looks)));
   });
@@ -286,7 +285,8 @@ Buffer declareShown(Graph& graph, const FramePlan& plan, const FragmentLists& li
 }  // namespace
 
 Image declareAccumulate(Graph& graph, const FramePlan& plan, const FragmentLists& lists, Buffer& statistics) {
-  const auto& [inputs, parameters] = std::pair(plan.inputs, plan.parameters);
+  const auto& inputs = plan.inputs;
+  const auto& parameters = plan.parameters;
   Image picture = graph.createImage(
       named("color"), {.format = kViewColorFormat, .width = inputs.extent.width, .height = inputs.extent.height});
   const auto tiles = rendergraph::groupsFor(inputs.extent, shared::kMultilayerTile);

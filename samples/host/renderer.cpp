@@ -253,9 +253,9 @@ FrameOutputs Renderer::State::declareTechnique(Graph& graph, DofInputs inputs, c
   FrameOutputs out;
   out.technique = technique.declare(graph, inputs, options.parameters);
   if (!out.technique.depth) out.technique.depth = view.depth;
-  for (const Buffer& statistics : {view.statistics, out.technique.statistics}) {
-    if (statistics) out.statistics.push_back(statistics);
-  }
+  // Of a pinhole view that is drawn for its depth alone nothing else is asked for, and the graph leaves it out.
+  if (isImage && view.statistics) out.statistics.push_back(view.statistics);
+  if (out.technique.statistics) out.statistics.push_back(out.technique.statistics);
   return out;
 }
 

@@ -27,7 +27,11 @@ uint taken, tap;
 float vergence;
 float limit = 3.4e38;  // the farthest vergence that joins the last fragment
 
-float signedRadius(float vergence) { return push.cocScale * (push.focusVergence - vergence); }
+// Precise, here and below: counting and merging are compiled apart and must decide alike.
+float signedRadius(float vergence) {
+  precise const float c = push.cocScale * (push.focusVergence - vergence);
+  return c;
+}
 
 bool isKept(float vergence) {
   const float c = signedRadius(vergence);
@@ -58,8 +62,9 @@ int openLists() {
 // The farthest vergence that is merged with a fragment at this one: within a share of the size of the blur that it is for,
 // or, nearer to focus, of this level's. So lists hold as many fragments as blur tells apart.
 float mergeLimit(float vergence) {
-  const float size = max(made.centre, abs(signedRadius(vergence)));
-  return vergence - push.epsilon * size / push.cocScale;
+  precise const float size = max(made.centre, abs(signedRadius(vergence)));
+  precise const float farthest = vergence - push.epsilon * size / push.cocScale;
+  return farthest;
 }
 
 // Takes the nearest fragment that is left. False when there is none.

@@ -28,7 +28,7 @@ struct Lookup {
 const Cells kClosedCells = Cells(uvec4(0u), uvec4(0u), vec4(-1.0), vec4(0.0), vec4(0.0), vec4(0.0));
 const Lookup kClosed = Lookup(kClosedCells, kClosedCells);
 
-// Opens one list at its first fragment no nearer than a vergence.
+// Opens one list at its first fragment farther than a vergence.
 void openList(FilterLevel level, ivec2 cell, float nearest, out uint cursor, out uint end, out float head) {
   const ivec2 inside = clamp(cell - level.first, ivec2(0), level.size - 1);
   const uint list = level.firstList + uint(inside.y * level.size.x + inside.x);

@@ -61,5 +61,6 @@ void main() {
     covered += seen * fragment.coverage;
     behind += seen * fragment.coverage * (nearest - vergence);
   }
-  if (!isFirst) write(target);
+  if (!isFirst) write(target++);
+  for (; target < end; ++target) vergences[target] = -1.0;  // Should fewer come than were counted: ends the list.
 }

@@ -11,6 +11,11 @@ layout(std430, set = 0, binding = 3) readonly buffer Vergences { float vergences
 layout(std430, set = 0, binding = 4) writeonly buffer Shown { uint shown[]; };
 layout(push_constant) uniform Push { ShownPush push; };
 
+// Steps of loops so far. Devices may end loops after 65 535, silently: looks that remain count as shown, which only costs
+// time.
+uint steps = 0u;
+const uint kMostSteps = 30000u;
+
 bool shows(uint number, ivec2 tile) {
   const FilterLook look = looks[number];
   const FilterLevel level = levels[look.level];
@@ -19,14 +24,16 @@ bool shows(uint number, ivec2 tile) {
   const ivec2 low = ivec2(floor((first - level.centre) / level.cellSize)) - reach - level.first;
   const ivec2 high = ivec2(floor((first + float(kMultilayerTile) - level.centre) / level.cellSize)) + 1 + reach - level.first;
   const ivec2 begin = clamp(low, ivec2(0), level.size - 1), end = clamp(high, ivec2(0), level.size - 1);
-  const bool isLast = number + 1u == push.lookCount;
-  for (int y = begin.y; y <= end.y; ++y) {
+  for (int y = begin.y; y <= end.y; ++y, ++steps) {
+    if (steps > kMostSteps) return true;
     const uint row = level.firstList + uint(y * level.size.x);
     const uint rowEnd = min(lists[row + uint(end.x) + 1u], push.room);
-    for (uint i = min(lists[row + uint(begin.x)], push.room); i < rowEnd; ++i) {  // The row's lists are one range.
+    for (uint i = min(lists[row + uint(begin.x)], push.room); i < rowEnd; ++i, ++steps) {  // The row's lists are one range.
+      if (steps > kMostSteps) return true;
+      if (vergences[i] < 0.0) continue;
       const float c = push.cocScale * (push.focusVergence - vergences[i]);
       const float square = min(c * c, push.mostSquare);
-      if (square >= look.inner && (isLast || square <= look.outer)) return true;
+      if (square >= look.inner && square <= look.outer) return true;
     }
   }
   return false;

@@ -5,9 +5,15 @@
 #include "half_float.glsl"
 #include "fragment_list.glsl"
 
+layout(constant_id = 0) const bool frontOnly = false;
+
+layout(location = 5) flat in uint isMirrored;
+
 void main() {
+  const bool facesAway = gl_FrontFacing == (isMirrored != 0u);
+  if (frontOnly && facesAway) return;
   const vec4 color = surface();
   if (!(color.a > 0.0)) return;  // NaN alpha is no surface either.
   const bool isSolid = materials[materialIndex].alphaMode == kAlphaOpaque;
-  appendFragment(roundedToHalf(vec4(color.rgb, min(color.a, 1.0))), gl_FragCoord.z, isSolid, !gl_FrontFacing);
+  appendFragment(roundedToHalf(vec4(color.rgb, min(color.a, 1.0))), gl_FragCoord.z, isSolid, facesAway);
 }

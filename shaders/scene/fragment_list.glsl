@@ -5,17 +5,17 @@
 // Further ones take a node of the pool, are written, and only then linked in by compare-and-swap: whoever walks a list
 // while others append meets complete nodes, or reserved ones that say they are pending. When the pool is full, a fragment
 // takes the place of the farthest in its list if it is nearer itself. So no pixel loses its nearest surface.
+//
+// Helper invocations change nothing, and what atomics give them is undefined: loops are bounded and indices checked.
 #include "shaders/shared/emit.h"
 
 layout(set = 2, binding = 0, r32ui) uniform coherent uimage2D heads;
 layout(std430, set = 2, binding = 1) coherent buffer Nodes { FragmentNode nodes[]; };
 layout(std430, set = 2, binding = 2) buffer Allocator { uint nodesAskedFor; };
 
-// Another fragment of the same pixel can get in between at most as often as there are others at work at once. Bounded all
-// the same: helper invocations read nonsense from atomics and must end.
-const int kLinkTries = 1024;
-const int kReplaceTries = 8;
-const int kLongestWalk = 4096;
+// Another fragment of the same pixel can get in between at most as often as there are others at work at once.
+const int kTries = 256;
+const int kLongestWalk = 200;  // Tries and walks together stay below what devices let loops do (65 535).
 
 void writeColor(uint index, uvec2 color) {
   nodes[index].redGreen = color.x;
@@ -23,23 +23,29 @@ void writeColor(uint index, uvec2 color) {
 }
 
 void replaceFarthest(ivec2 pixel, uvec2 color, uint vergence, uint flags) {
-  for (int attempt = 0; attempt < kReplaceTries; ++attempt) {
+  for (int attempt = 0; attempt < kTries; ++attempt) {
     uint farthest = vergence, found = 0u;
+    bool sawPending = false;
     uint i = imageLoad(heads, pixel).r;
-    for (int step = 0; step < kLongestWalk && i != 0u; ++step) {
+    memoryBarrier();
+    for (int step = 0; step < kLongestWalk && i != 0u && i <= nodes.length(); ++step) {
       const uint other = nodes[i - 1u].vergence;
+      sawPending = sawPending || other == kFragmentPending;
       if (other < farthest) {  // A pending one is never less.
         farthest = other;
         found = i;
       }
       i = nodes[i - 1u].next & kFragmentNextMask;
-      if (i == kFragmentNextMask) break;  // A reserved node that is not written yet; it is the last.
     }
-    if (found == 0u) return;
+    if (found == 0u) {
+      if (!sawPending) return;
+      continue;  // What is being written may turn out to be farther.
+    }
     if (atomicCompSwap(nodes[found - 1u].vergence, farthest, kFragmentPending) != farthest) continue;
+    memoryBarrier();
     writeColor(found - 1u, color);
     nodes[found - 1u].next = (nodes[found - 1u].next & kFragmentNextMask) | flags;
-    memoryBarrierBuffer();
+    memoryBarrier();
     atomicExchange(nodes[found - 1u].vergence, vergence);
     return;
   }
@@ -58,7 +64,7 @@ void appendFragment(vec4 color, float depthValue, bool isSolid, bool facesAway) 
   if (head == 0u) {
     writeColor(reserved, packed);
     nodes[reserved].next = flags;
-    memoryBarrierBuffer();
+    memoryBarrier();
     atomicExchange(nodes[reserved].vergence, vergence);
     return;
   }
@@ -69,9 +75,9 @@ void appendFragment(vec4 color, float depthValue, bool isSolid, bool facesAway) 
   }
   writeColor(index, packed);
   nodes[index].vergence = vergence;
-  for (int attempt = 0; attempt < kLinkTries; ++attempt) {
+  for (int attempt = 0; attempt < kTries; ++attempt) {
     nodes[index].next = head | flags;
-    memoryBarrierBuffer();
+    memoryBarrier();
     const uint now = imageAtomicCompSwap(heads, pixel, head, index + 1u);
     if (now == head) return;
     head = now;

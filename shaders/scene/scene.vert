@@ -18,6 +18,7 @@ layout(location = 1) out vec3 viewNormal;
 layout(location = 2) out vec4 texCoords;
 layout(location = 3) out vec4 vertexColor;
 layout(location = 4) flat out uint materialIndex;
+layout(location = 5) flat out uint isMirrored;  // the object's winding is turned round
 
 void main() {
   const DrawConstants draw = draws[gl_InstanceIndex];
@@ -27,5 +28,6 @@ void main() {
   texCoords = vec4(uv0, uv1);
   vertexColor = color;
   materialIndex = draw.material;
+  isMirrored = draw.normalColumns[0].w != 0.0 ? 1u : 0u;
   gl_Position = view.clipFromView * vec4(inView.xyz, 1.0);
 }

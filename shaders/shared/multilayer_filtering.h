@@ -41,7 +41,6 @@ struct FilterLook {
   // Squares of |c|, px²: below `inner` and above `outer` the look does not show, at `own` it shows alone.
   float inner, own, outer;
   float halfWidth;  // px, of the blur
-  uint padding0, padding1;
 };
 
 struct CompactPush {

@@ -9,7 +9,7 @@ SHARED_NAMESPACE_BEGIN
 
 struct DrawConstants {
   mat4 viewFromObject;    // m; rounded from double
-  vec4 normalColumns[3];  // inverse transpose of its 3×3 part, column by column; w unused
+  vec4 normalColumns[3];  // inverse transpose of its 3×3 part, column by column; w of the first: 1 where it mirrors
   uint material;
   uint padding0, padding1, padding2;
 };

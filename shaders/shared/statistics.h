@@ -11,10 +11,10 @@ struct FrameStatistics {
   uint transparentNodes;      // most alpha-blended fragments that the lists of one view were asked to hold
   uint transparentDropped;    // most that found no room in one view (the picture is then incomplete)
   uint transparentUnsorted;   // pixels, over all views, with lists too long to composite whole: the nearest fragments are missing
-  uint clampedCoc;            // pixels whose blur radius was limited by maxCocRadius
+  uint clampedCoc;            // pixels (of lists, where there are any) whose blur radius was limited by maxCocRadius
   uint fragmentNodes;         // fragments of all surfaces that per-pixel lists were asked to hold, see SceneDraw
   uint fragmentNodesDropped;  // those that found no room
-  uint listFragments;         // fragments that compacted and filtered lists were asked to hold
+  uint listFragments;         // fragments that compacted and filtered lists were asked to hold; where some were dropped, at least
   uint listFragmentsDropped;  // those that found no room
   uint unsortedLists;         // pixels whose lists were too long to be sorted whole: fragments may be missing
 };

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <bit>
 #include <glm/gtc/packing.hpp>
-#include <numeric>
 #include <random>
 #include <tuple>
 

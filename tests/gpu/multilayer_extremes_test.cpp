@@ -133,6 +133,26 @@ TEST_F(MultilayerFiltering, ExtremesStayFiniteAndConstant) {
   }
 }
 
+// Rings of large blurs reach over many cells: tiles find out what they show within what devices let loops do.
+TEST_F(MultilayerFiltering, WideBlursInLargePicturesAreShown) {
+  engine::Scene scene;
+  support::addFacingQuad(scene, 0.5, 0.0, 0.0, 0.004, 9.0, support::addMaterial(scene, {9.0f, 0.0f, 0.0f, 1.0f}));
+  for (int i = 0; i < 6; ++i) {
+    support::addFacingQuad(scene, 0.6 + 0.02 * i, 0.0, 0.0, 9.0, 9.0,
+                           support::addMaterial(scene, {0.2f, 0.3f, 0.4f, 0.2f}));
+  }
+  support::addFacingQuad(scene, 8.0, 0.0, 0.0, 30.0, 30.0, support::addMaterial(scene, {0.2f, 0.3f, 0.4f, 1.0f}));
+  auto shot = support::smallShot(640, 360);
+  shot.lens.apertureRadius = 0.12;  // |c| up to 89 px
+  host::Renderer renderer(support::device(), scene, std::nullopt);
+  const auto image = render(renderer, shot, kName, {{"listLength", int64_t{16}}}).color;
+  support::keepPicture(image, "multilayer_wide");
+  const double width = 0.016 * support::pixelsPerTangent(shot);  // px, of the bar, whose blur takes its light along
+  double light = 0.0;
+  for (uint32_t x = 0; x < image.width; ++x) light += double(image.pixel(x, 180)[0]) - 0.2;
+  EXPECT_NEAR(light, width * (9.0 - 0.2), 0.03 * width * 9.0);
+}
+
 // A thousand surfaces behind one pixel.
 TEST_F(MultilayerFiltering, LongListsKeepTheNearest) {
   engine::Scene scene;

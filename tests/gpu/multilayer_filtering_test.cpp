@@ -288,6 +288,17 @@ TEST_F(MultilayerFiltering, InsidesOfSolidsAreLeftOut) {
   EXPECT_GE(psnrOf("outer"), psnrOf("all") + 3.0);
   EXPECT_NEAR(psnrOf("outer"), psnrOf("front"), 0.01);
 
+  // A mirrored object's winding is turned round: the same box, made by mirroring another.
+  engine::Scene mirrored;
+  addBox(mirrored, {-0.05f, -0.05f, -1.0f}, {0.05f, 0.05f, -0.8f},
+         support::addMaterial(mirrored, {0.0f, 0.0f, 0.0f, 1.0f}));
+  for (auto& instance : mirrored.instances) instance.worldFromObject[0][0] = -1.0;
+  for (const char* faces : {"outer", "front", "all"}) {
+    const auto straight = render(renderer, shot, kName, {{"faces", std::string(faces)}}).color;
+    EXPECT_GE(engine::compareImages(picture(mirrored, shot, {{"faces", std::string(faces)}}), straight).psnr, 60.0)
+        << faces;
+  }
+
   engine::Scene sheet;  // seen from behind
   support::addQuad(sheet, {glm::vec3(-9, -9, -3), {-9, 9, -3}, {9, 9, -3}, {9, -9, -3}},
                    support::addMaterial(sheet, {kColor, 1.0f}));

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
 #include <random>
+#include <utility>
 
 #include "engine/graph_backend.h"
 #include "tests/support/gpu/device_buffers.h"

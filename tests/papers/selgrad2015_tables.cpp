@@ -55,7 +55,7 @@ ordered_json rowOf(host::Renderer& renderer, const host::Shot& shot, const std::
     frame["sum"] = frame["collect"] + frame["filter"] + frame["accumulate"];
     for (const auto& [part, ms] : frame) parts[part].push_back(ms);
   }
-  ordered_json row = {{"row", name}};
+  ordered_json row = {{"row", name}, {"width", shot.width}, {"height", shot.height}};
   for (const char* part : {"collect", "filter", "accumulate", "sum"}) row[part] = median(parts[part]);
   row["fragments"] = statistics.listFragments;
   std::printf("  %-28s collect %6.1f  filter %6.1f  accumulate %6.1f  sum %6.1f ms  %u fragments\n", name.c_str(),

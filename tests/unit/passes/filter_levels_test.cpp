@@ -163,6 +163,9 @@ TEST(FilterLevels, DropOnlyWhatNothingShows) {
     const auto& look = plan.looks[i];
     const auto& level = plan.levels[look.level];
     EXPECT_LT(level.dropWithin, std::sqrt(look.inner) + 1e-6f) << "what the look shows is kept";
+    if (i > 2) {
+      EXPECT_GT(level.dropWithin, 0.0f) << "and what is in focus dropped";
+    }
     if (i <= plan.farLooks) {
       EXPECT_GT(level.highest, 1e30f);
     } else if (look.level > plan.looks[plan.farLooks].level) {

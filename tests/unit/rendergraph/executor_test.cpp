@@ -327,6 +327,26 @@ TEST(Executor, UpdatesABufferWithBytesOfTheRecording) {
   }
 }
 
+TEST(Executor, FillsABufferWholeOrItsStart) {
+  FakeBackend backend;
+  Executor executor(backend);
+  const auto fill = [&](VkDeviceSize bytes) {
+    Graph graph;
+    Buffer table = graph.createBuffer("table", {.size = 64});
+    Pass pass = graph.addPass("fill", PassKind::transfer);
+    table = pass.write(table, Usage::transferDestination);
+    pass.record([=](PassContext& context) { context.fillBuffer(table, 7, bytes); });
+    graph.exportBuffer(table, {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_READ_BIT});
+    executor.execute(graph);
+  };
+  fill(VK_WHOLE_SIZE);
+  fill(32);
+  EXPECT_EQ(backend.count("fill 7 x32"), 1u);
+  for (const VkDeviceSize bad : {0u, 6u, 68u}) {
+    EXPECT_EQ(misuseOf([&] { fill(bad); }), Misuse::sizeMismatch) << bad;
+  }
+}
+
 TEST(Executor, RecordsIntoTheHostsCommandBufferWithoutSubmitting) {
   FakeBackend backend;
   Executor executor(backend);
