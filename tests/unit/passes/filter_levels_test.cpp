@@ -97,6 +97,13 @@ TEST(FilterLevels, WindowsHoldWhatIsLookedUp) {
           return static_cast<int>(std::floor((place - level.centre) / level.cellSize));
         };
         EXPECT_LE(level.first.x, cell(0.5));
+        EXPECT_LE(level.first.y, cell(0.5));
+        for (const auto& look : plan.looks) {
+          if (look.level != i || look.ring == 0.0f) continue;
+          const auto place = [&](double at) { return (at - level.centre) / level.cellSize; };
+          EXPECT_LE(level.first.x, std::ceil(place(0.5) - 0.5 - look.ring));
+          EXPECT_GE(level.first.y + level.size.y - 1, std::floor(place(180.5) + 0.5 + look.ring));
+        }
         EXPECT_GE(level.first.x + level.size.x - 1, cell(319.5));
         EXPECT_GE(level.first.y + level.size.y - 1, cell(180.5));
         if (i == 0) continue;
