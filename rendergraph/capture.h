@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "rendergraph/access.h"
+#include "rendergraph/declare/access_table.h"
 #include "rendergraph/pass.h"
 #include "rendergraph/plan.h"
 

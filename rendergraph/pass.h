@@ -9,8 +9,8 @@
 #include <span>
 #include <string_view>
 
-#include "rendergraph/access.h"
 #include "rendergraph/command_stream.h"
+#include "rendergraph/declare/access_table.h"
 #include "rendergraph/handle.h"
 #include "rendergraph/program.h"
 #include "rendergraph/resource.h"

@@ -1,9 +1,9 @@
-# add_test_program(NAME label libraries...) builds every .cpp of the current folder into one program.
+# add_test_program(NAME label libraries...) builds every .cpp of the current folder and those below it into one program.
 find_package(GTest REQUIRED)
 include(GoogleTest)
 
 function(add_test_program name label)
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   add_executable(${name} ${sources})
   target_link_libraries(${name} PRIVATE ${ARGN} GTest::gmock GTest::gtest_main lensgraph_flags)
   get_filename_component(root ${CMAKE_CURRENT_FUNCTION_LIST_DIR} DIRECTORY)

@@ -1,5 +1,5 @@
 // Mip chain by 2×2 means and projection onto spherical harmonics, on the CPU: environments are small and loaded once.
-#include "engine/environment.h"
+#include "engine/draw/environment.h"
 
 #include <algorithm>
 #include <cmath>

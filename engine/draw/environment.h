@@ -6,7 +6,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "engine/image.h"
+#include "engine/image/image.h"
 #include "rendergraph/resource.h"
 
 namespace engine {

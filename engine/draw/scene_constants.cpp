@@ -1,5 +1,5 @@
 // Conversion to shader constants.
-#include "engine/scene_constants.h"
+#include "engine/draw/scene_constants.h"
 
 #include <algorithm>
 #include <cmath>

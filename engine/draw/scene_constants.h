@@ -1,8 +1,8 @@
 // The shader-side constants of draws, lights and viewpoint (shaders/shared/scene.h) from the engine's scene.
 #pragma once
 
-#include "engine/scene_gpu.h"
-#include "engine/scene_renderer.h"
+#include "engine/draw/scene_gpu.h"
+#include "engine/draw/scene_renderer.h"
 #include "shaders/shared/scene.h"
 
 namespace engine {

@@ -1,11 +1,11 @@
 // Upload of a scene.
-#include "engine/scene_gpu.h"
+#include "engine/draw/scene_gpu.h"
 
 #include <algorithm>
 #include <array>
 #include <cstring>
 
-#include "engine/commands.h"
+#include "engine/vulkan/command_buffers.h"
 #include "shaders/shared/scene.h"
 
 namespace engine {

@@ -4,10 +4,10 @@
 #include <glm/mat4x4.hpp>
 #include <vector>
 
-#include "engine/device.h"
-#include "engine/memory.h"
-#include "engine/pipelines.h"
-#include "engine/scene.h"
+#include "engine/scene/scene.h"
+#include "engine/vulkan/device.h"
+#include "engine/vulkan/memory.h"
+#include "engine/vulkan/pipelines.h"
 
 namespace engine {
 

@@ -1,14 +1,14 @@
 // Descriptor set 0: the scene; set 1: a material's textures; set 2: what the emit writes to.
-#include "engine/scene_renderer.h"
+#include "engine/draw/scene_renderer.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <glm/gtc/matrix_inverse.hpp>
 
-#include "engine/commands.h"
-#include "engine/raster_pipeline.h"
-#include "engine/scene_constants.h"
+#include "engine/draw/scene_constants.h"
+#include "engine/vulkan/command_buffers.h"
+#include "engine/vulkan/raster_pipeline.h"
 #include "spirv/scene/fragment_list_frag.h"
 #include "spirv/scene/layer_radiance_frag.h"
 #include "spirv/scene/layer_surface_frag.h"

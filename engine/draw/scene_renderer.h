@@ -10,11 +10,11 @@
 #include <span>
 #include <vector>
 
-#include "engine/environment.h"
-#include "engine/graph_backend.h"
-#include "engine/memory.h"
-#include "engine/scene.h"
-#include "engine/scene_gpu.h"
+#include "engine/draw/environment.h"
+#include "engine/draw/scene_gpu.h"
+#include "engine/graph/graph_backend.h"
+#include "engine/scene/scene.h"
+#include "engine/vulkan/memory.h"
 #include "shaders/shared/emit.h"
 #include "shaders/shared/scene.h"
 #include "shaders/shared/view.h"

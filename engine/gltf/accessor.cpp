@@ -5,7 +5,7 @@
 #include <cstring>
 #include <limits>
 
-#include "engine/scene_gltf_internal.h"
+#include "engine/gltf/internal.h"
 
 namespace engine::gltf {
 namespace {

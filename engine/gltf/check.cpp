@@ -2,7 +2,7 @@
 //
 // tinygltf silently skips optional members of a wrong type and truncates integers; this makes both an error
 // with the field's name, and lets everything after it trust types and indices.
-#include "engine/scene_gltf_check.h"
+#include "engine/gltf/check.h"
 
 #include <climits>
 #include <cstdint>

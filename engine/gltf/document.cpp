@@ -13,8 +13,8 @@
 #include <system_error>
 
 #include "engine/error.h"
-#include "engine/scene_gltf_check.h"
-#include "engine/scene_gltf_internal.h"
+#include "engine/gltf/check.h"
+#include "engine/gltf/internal.h"
 
 namespace engine::gltf {
 namespace {

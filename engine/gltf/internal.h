@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/scene.h"
+#include "engine/scene/scene.h"
 
 namespace engine::gltf {
 

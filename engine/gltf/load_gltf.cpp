@@ -1,5 +1,5 @@
 // Walks the node tree of a glTF file and assembles the scene: instances, cameras, lights.
-#include "engine/scene_gltf.h"
+#include "engine/gltf/load_gltf.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -8,7 +8,7 @@
 #include <new>
 
 #include "engine/error.h"
-#include "engine/scene_gltf_internal.h"
+#include "engine/gltf/internal.h"
 
 namespace engine {
 namespace {

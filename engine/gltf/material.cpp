@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/scene_gltf_internal.h"
+#include "engine/gltf/internal.h"
 
 namespace engine::gltf {
 namespace {

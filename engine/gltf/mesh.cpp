@@ -3,7 +3,7 @@
 #include <cstring>
 #include <glm/geometric.hpp>
 
-#include "engine/scene_gltf_internal.h"
+#include "engine/gltf/internal.h"
 
 namespace engine::gltf {
 namespace {

@@ -4,7 +4,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
-#include "engine/scene_gltf_internal.h"
+#include "engine/gltf/internal.h"
 
 namespace engine::gltf {
 namespace {

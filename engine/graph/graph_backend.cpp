@@ -1,11 +1,11 @@
 // The graph's objects on Vulkan: memory, images, buffers, views. Recording is in graph_backend_commands.cpp, submission
 // and time in graph_backend_submission.cpp.
-#include "engine/graph_backend.h"
+#include "engine/graph/graph_backend.h"
 
 #include <algorithm>
 #include <string>
 
-#include "engine/graph_error.h"
+#include "engine/graph/graph_error.h"
 
 namespace engine {
 

@@ -5,11 +5,11 @@
 #include <unordered_map>
 #include <vector>
 
-#include "engine/commands.h"
-#include "engine/descriptors.h"
-#include "engine/device.h"
-#include "engine/memory.h"
-#include "engine/pipelines.h"
+#include "engine/vulkan/command_buffers.h"
+#include "engine/vulkan/descriptors.h"
+#include "engine/vulkan/device.h"
+#include "engine/vulkan/memory.h"
+#include "engine/vulkan/pipelines.h"
 #include "rendergraph/backend.h"
 
 namespace engine {

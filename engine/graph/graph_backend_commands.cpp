@@ -2,8 +2,8 @@
 #include <array>
 #include <string>
 
-#include "engine/graph_backend.h"
-#include "engine/graph_error.h"
+#include "engine/graph/graph_backend.h"
+#include "engine/graph/graph_error.h"
 
 namespace engine {
 

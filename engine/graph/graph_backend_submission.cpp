@@ -1,8 +1,8 @@
 // Recorders, timelines, submission, events and time for the graph.
 #include <algorithm>
 
-#include "engine/graph_backend.h"
-#include "engine/graph_error.h"
+#include "engine/graph/graph_backend.h"
+#include "engine/graph/graph_error.h"
 
 namespace engine {
 

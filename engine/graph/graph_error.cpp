@@ -1,5 +1,5 @@
 // Kinds of failure and what to do about them.
-#include "engine/graph_error.h"
+#include "engine/graph/graph_error.h"
 
 namespace engine {
 namespace {

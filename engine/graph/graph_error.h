@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "engine/vulkan_api.h"
+#include "engine/vulkan/vulkan_api.h"
 #include "rendergraph/error.h"
 
 namespace engine {

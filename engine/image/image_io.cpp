@@ -3,7 +3,7 @@
 // OpenImageIO is asked for raw values everywhere: alpha is never multiplied for us (oiio:UnassociatedAlpha)
 // and no colour space is converted; sRGB and premultiplication are done here, in linear light, where
 // OpenImageIO would do them encoded.
-#include "engine/image_io.h"
+#include "engine/image/image_io.h"
 
 #include <OpenImageIO/imageio.h>
 #include <unistd.h>
@@ -22,7 +22,7 @@
 #include <vector>
 
 #include "engine/error.h"
-#include "engine/metrics.h"
+#include "engine/image/metrics.h"
 
 namespace engine {
 namespace {

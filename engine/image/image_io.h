@@ -8,7 +8,7 @@
 
 #include <filesystem>
 
-#include "engine/image.h"
+#include "engine/image/image.h"
 
 namespace engine {
 

@@ -1,5 +1,5 @@
 // PSNR, SSIM and linear errors as metrics.h defines them. All sums are double.
-#include "engine/metrics.h"
+#include "engine/image/metrics.h"
 
 #include <algorithm>
 #include <array>

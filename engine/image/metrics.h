@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "engine/image.h"
+#include "engine/image/image.h"
 
 namespace engine {
 

@@ -1,5 +1,5 @@
 // Look-at and file cameras to viewFromWorld. See camera.h for conventions.
-#include "engine/camera.h"
+#include "engine/scene/camera.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>

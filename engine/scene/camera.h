@@ -10,7 +10,7 @@
 #include <glm/vec3.hpp>
 #include <string_view>
 
-#include "engine/scene.h"
+#include "engine/scene/scene.h"
 
 namespace engine {
 

@@ -1,5 +1,5 @@
 // Bounds, validity and flat normals of a scene. No file formats here.
-#include "engine/scene.h"
+#include "engine/scene/scene.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>

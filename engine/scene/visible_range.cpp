@@ -2,7 +2,7 @@
 //
 // A lens point at distance r from the centre sees the picture's edge, w/2 px, where S x/d = w/2 + S r |V_f - 1/d|, that is
 // x = (w/2S) d + r |V_f d - 1|: a plane in front of the focal plane and another behind it, so triangles are cut there.
-#include "engine/visible_range.h"
+#include "engine/scene/visible_range.h"
 
 #include <algorithm>
 #include <array>

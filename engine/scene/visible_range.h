@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "engine/camera.h"
-#include "engine/scene.h"
+#include "engine/scene/camera.h"
+#include "engine/scene/scene.h"
 
 namespace engine {
 

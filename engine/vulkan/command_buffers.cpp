@@ -1,5 +1,5 @@
 // Command recording and staging uploads.
-#include "engine/commands.h"
+#include "engine/vulkan/command_buffers.h"
 
 #include <algorithm>
 #include <cstring>

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/device.h"
-#include "engine/memory.h"
+#include "engine/vulkan/device.h"
+#include "engine/vulkan/memory.h"
 
 namespace engine {
 

@@ -1,5 +1,5 @@
 // Pools of descriptor sets, and their content.
-#include "engine/descriptors.h"
+#include "engine/vulkan/descriptors.h"
 
 namespace engine {
 

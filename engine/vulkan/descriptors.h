@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "engine/device.h"
-#include "engine/pipelines.h"
-#include "engine/vulkan_api.h"
+#include "engine/vulkan/device.h"
+#include "engine/vulkan/pipelines.h"
+#include "engine/vulkan/vulkan_api.h"
 #include "rendergraph/backend.h"
 
 namespace engine {

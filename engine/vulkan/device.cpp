@@ -1,5 +1,5 @@
 // Device selection and creation. The features asked for are those that the graph and the techniques need.
-#include "engine/device.h"
+#include "engine/vulkan/device.h"
 
 #include <algorithm>
 #include <bit>

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/vulkan_api.h"
-#include "engine/vulkan_instance.h"
+#include "engine/vulkan/vulkan_api.h"
+#include "engine/vulkan/vulkan_instance.h"
 
 namespace engine {
 

@@ -1,5 +1,5 @@
 // Memory type selection and allocation.
-#include "engine/memory.h"
+#include "engine/vulkan/memory.h"
 
 #include <algorithm>
 

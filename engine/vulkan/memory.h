@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <string>
 
-#include "engine/device.h"
-#include "engine/vulkan_api.h"
+#include "engine/vulkan/device.h"
+#include "engine/vulkan/vulkan_api.h"
 #include "rendergraph/resource.h"
 
 namespace engine {

@@ -1,5 +1,5 @@
 // Pipeline creation and the stores behind it.
-#include "engine/pipelines.h"
+#include "engine/vulkan/pipelines.h"
 
 #include <array>
 #include <cstdlib>
@@ -8,7 +8,7 @@
 #include <iterator>
 #include <mutex>
 
-#include "engine/raster_pipeline.h"
+#include "engine/vulkan/raster_pipeline.h"
 
 namespace engine {
 namespace {

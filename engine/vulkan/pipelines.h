@@ -10,8 +10,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "engine/device.h"
-#include "engine/vulkan_api.h"
+#include "engine/vulkan/device.h"
+#include "engine/vulkan/vulkan_api.h"
 #include "rendergraph/program.h"
 
 namespace engine {

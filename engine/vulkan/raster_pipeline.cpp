@@ -1,9 +1,9 @@
 // Graphics pipeline creation.
-#include "engine/raster_pipeline.h"
+#include "engine/vulkan/raster_pipeline.h"
 
 #include <vector>
 
-#include "engine/pipelines.h"
+#include "engine/vulkan/pipelines.h"
 
 namespace engine {
 namespace {

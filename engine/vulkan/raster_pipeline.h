@@ -4,8 +4,8 @@
 #include <span>
 #include <string>
 
-#include "engine/device.h"
-#include "engine/vulkan_api.h"
+#include "engine/vulkan/device.h"
+#include "engine/vulkan/vulkan_api.h"
 #include "rendergraph/program.h"
 
 namespace engine {

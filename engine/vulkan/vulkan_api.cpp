@@ -1,6 +1,6 @@
 // The one translation unit that holds volk, and names for Vulkan's results.
 #define VOLK_IMPLEMENTATION
-#include "engine/vulkan_api.h"
+#include "engine/vulkan/vulkan_api.h"
 
 #include <string>
 

@@ -1,5 +1,5 @@
 // VulkanInstance creation and the validation messenger.
-#include "engine/vulkan_instance.h"
+#include "engine/vulkan/vulkan_instance.h"
 
 #include <cstdlib>
 #include <cstring>

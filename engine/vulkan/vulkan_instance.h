@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/vulkan_api.h"
+#include "engine/vulkan/vulkan_api.h"
 
 namespace engine {
 

@@ -3,10 +3,10 @@
 
 #include <vector>
 
-#include "passes/make_technique.h"
+#include "passes/nodes/scene_view.h"
+#include "passes/nodes/view_mean.h"
 #include "passes/pinhole/pinhole.h"
-#include "passes/scene_view.h"
-#include "passes/view_mean.h"
+#include "passes/technique.h"
 
 namespace passes::accumulation {
 namespace {

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "passes/dof_io.h"
-#include "passes/lens_samples.h"
+#include "passes/lens/lens_samples.h"
 #include "passes/parameters.h"
-#include "passes/registry.h"
+#include "passes/registry/registry.h"
 
 namespace passes::accumulation {
 

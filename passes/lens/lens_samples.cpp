@@ -1,5 +1,5 @@
 // Patterns in [0, 1)^4 and their way to the aperture; see lens_samples.h for the sources.
-#include "passes/lens_samples.h"
+#include "passes/lens/lens_samples.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 //   p' = p + K (V_f - 1/d) v + j.
 // Clip space wants (p' - w/2)·2/w · d, which is linear in (x, z, 1):
 //   x_clip = 2/w (S x + (K V_f v + j) d - K v)
-#include "passes/lens_view.h"
+#include "passes/lens/lens_view.h"
 
 namespace passes {
 

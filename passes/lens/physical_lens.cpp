@@ -3,7 +3,7 @@
 // Units. Every length of a Lens is in metres (or millimetres where named so), whatever the scene's unit. View
 // space is in metres too: who draws the scene scales it by metersPerUnit. A depth buffer holds near/depth, a
 // ratio, so a host that draws in scene units has only its near plane to convert: metersFromSceneUnits().
-#include "engine/lens.h"
+#include "passes/lens/physical_lens.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,12 +3,12 @@
 
 #include <algorithm>
 
-#include "passes/lens_samples.h"
-#include "passes/make_technique.h"
+#include "passes/lens/lens_samples.h"
 #include "passes/multilayer_filtering/nodes.h"
+#include "passes/nodes/scene_view.h"
+#include "passes/nodes/statistics.h"
 #include "passes/pinhole/pinhole.h"
-#include "passes/scene_view.h"
-#include "passes/statistics.h"
+#include "passes/technique.h"
 
 namespace passes::multilayer_filtering {
 namespace {

@@ -7,9 +7,9 @@
 #include <span>
 #include <string>
 
-#include "passes/lens_view.h"
-#include "passes/prefix_sum.h"
-#include "passes/scene_view.h"
+#include "passes/lens/lens_view.h"
+#include "passes/nodes/prefix_sum.h"
+#include "passes/nodes/scene_view.h"
 #include "shaders/shared/emit.h"
 #include "shaders/shared/multilayer_filtering.h"
 #include "spirv/multilayer_filtering/accumulate_comp.h"

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "passes/lens_samples.h"
+#include "passes/lens/lens_samples.h"
 #include "shaders/shared/multiview_synthesis.h"
 
 namespace passes::multiview_synthesis {

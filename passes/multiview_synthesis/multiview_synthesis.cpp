@@ -5,12 +5,12 @@
 #include <array>
 #include <cmath>
 
-#include "passes/make_technique.h"
 #include "passes/multiview_synthesis/layers.h"
 #include "passes/multiview_synthesis/nodes.h"
+#include "passes/nodes/scene_view.h"
+#include "passes/nodes/statistics.h"
 #include "passes/pinhole/pinhole.h"
-#include "passes/scene_view.h"
-#include "passes/statistics.h"
+#include "passes/technique.h"
 
 namespace passes::multiview_synthesis {
 namespace {

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "passes/dof_io.h"
-#include "passes/lens_samples.h"
+#include "passes/lens/lens_samples.h"
 #include "passes/multiview_synthesis/lens_rays.h"
 #include "passes/parameters.h"
-#include "passes/registry.h"
+#include "passes/registry/registry.h"
 
 namespace passes::multiview_synthesis {
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "passes/lens_view.h"
-#include "passes/scene_view.h"
+#include "passes/lens/lens_view.h"
+#include "passes/nodes/scene_view.h"
 #include "shaders/shared/multiview_synthesis.h"
 #include "spirv/multiview_synthesis/dilate_comp.h"
 #include "spirv/multiview_synthesis/mip_comp.h"

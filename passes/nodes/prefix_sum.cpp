@@ -1,5 +1,5 @@
 // Three passes: blocks, the blocks' totals, totals added back.
-#include "passes/prefix_sum.h"
+#include "passes/nodes/prefix_sum.h"
 
 #include <algorithm>
 #include <array>

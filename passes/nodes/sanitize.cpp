@@ -1,4 +1,4 @@
-#include "passes/sanitize.h"
+#include "passes/nodes/sanitize.h"
 
 #include <array>
 

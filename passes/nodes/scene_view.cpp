@@ -1,6 +1,6 @@
 // Nodes of one view. Transparency is exact and independent of draw order: all alpha-blended fragments in front of the
 // opaque surface are collected in per-pixel lists, sorted, and composited (an A-buffer, Carpenter 1984).
-#include "passes/scene_view.h"
+#include "passes/nodes/scene_view.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "passes/statistics.h"
+#include "passes/nodes/statistics.h"
 
 #include "shaders/shared/statistics.h"
 

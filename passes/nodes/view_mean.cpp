@@ -1,12 +1,12 @@
 // Nodes: per view the scene and `accumulate`; at the end of the execution `resolve`.
-#include "passes/view_mean.h"
+#include "passes/nodes/view_mean.h"
 
 #include <algorithm>
 #include <array>
 
-#include "passes/lens_view.h"
-#include "passes/scene_view.h"
-#include "passes/statistics.h"
+#include "passes/lens/lens_view.h"
+#include "passes/nodes/scene_view.h"
+#include "passes/nodes/statistics.h"
 #include "shaders/shared/accumulation.h"
 #include "spirv/accumulation/accumulate_comp.h"
 #include "spirv/accumulation/resolve_comp.h"

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "passes/dof_io.h"
-#include "passes/lens_samples.h"
+#include "passes/lens/lens_samples.h"
 
 namespace passes {
 

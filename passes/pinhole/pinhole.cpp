@@ -3,12 +3,12 @@
 
 #include <vector>
 
-#include "passes/lens_view.h"
-#include "passes/make_technique.h"
-#include "passes/sanitize.h"
-#include "passes/scene_view.h"
-#include "passes/statistics.h"
-#include "passes/view_mean.h"
+#include "passes/lens/lens_view.h"
+#include "passes/nodes/sanitize.h"
+#include "passes/nodes/scene_view.h"
+#include "passes/nodes/statistics.h"
+#include "passes/nodes/view_mean.h"
+#include "passes/technique.h"
 
 namespace passes::pinhole {
 namespace {

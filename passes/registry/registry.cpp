@@ -1,5 +1,5 @@
 // The list of techniques. To add one: its folder's header here, and one line below.
-#include "passes/registry.h"
+#include "passes/registry/registry.h"
 
 #include <algorithm>
 

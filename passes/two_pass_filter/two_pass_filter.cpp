@@ -5,8 +5,8 @@
 #include <array>
 #include <string>
 
-#include "passes/make_technique.h"
-#include "passes/statistics.h"
+#include "passes/nodes/statistics.h"
+#include "passes/technique.h"
 #include "rendergraph/error.h"
 #include "shaders/shared/statistics.h"
 #include "shaders/shared/two_pass_filter.h"

@@ -1,12 +1,12 @@
 // Load operations follow from the declaration, store operations from what comes later.
-#include "rendergraph/attachments.h"
+#include "rendergraph/compile/attachments.h"
 
 #include <vector>
 
-#include "rendergraph/cells.h"
-#include "rendergraph/declaration.h"
-#include "rendergraph/schedule.h"
-#include "rendergraph/timeline.h"
+#include "rendergraph/compile/flow/cells.h"
+#include "rendergraph/compile/schedule/cell_uses.h"
+#include "rendergraph/compile/schedule/schedule.h"
+#include "rendergraph/declare/declaration.h"
 
 namespace rendergraph {
 

@@ -6,22 +6,22 @@
 #include <string>
 #include <utility>
 
-#include "rendergraph/attachments.h"
-#include "rendergraph/barriers.h"
-#include "rendergraph/cells.h"
-#include "rendergraph/culling.h"
-#include "rendergraph/declaration.h"
-#include "rendergraph/dependencies.h"
+#include "rendergraph/compile/attachments.h"
+#include "rendergraph/compile/flow/cells.h"
+#include "rendergraph/compile/flow/culling.h"
+#include "rendergraph/compile/flow/dependencies.h"
+#include "rendergraph/compile/flow/resource_needs.h"
+#include "rendergraph/compile/flow/validation.h"
+#include "rendergraph/compile/memory/placements.h"
+#include "rendergraph/compile/schedule/cell_uses.h"
+#include "rendergraph/compile/schedule/ordering.h"
+#include "rendergraph/compile/schedule/queues.h"
+#include "rendergraph/compile/schedule/raster_merging.h"
+#include "rendergraph/compile/schedule/schedule.h"
+#include "rendergraph/compile/schedule/submissions.h"
+#include "rendergraph/compile/sync/plan_barriers.h"
+#include "rendergraph/declare/declaration.h"
 #include "rendergraph/error.h"
-#include "rendergraph/ordering.h"
-#include "rendergraph/placements.h"
-#include "rendergraph/queues.h"
-#include "rendergraph/raster_merging.h"
-#include "rendergraph/resource_uses.h"
-#include "rendergraph/schedule.h"
-#include "rendergraph/submissions.h"
-#include "rendergraph/timeline.h"
-#include "rendergraph/validation.h"
 
 namespace rendergraph {
 

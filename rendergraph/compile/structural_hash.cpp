@@ -7,7 +7,7 @@
 #include <type_traits>
 
 #include "rendergraph/compiler.h"
-#include "rendergraph/declaration.h"
+#include "rendergraph/declare/declaration.h"
 
 namespace rendergraph {
 

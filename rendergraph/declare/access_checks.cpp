@@ -1,5 +1,5 @@
 // The checks and their words.
-#include "rendergraph/access_checks.h"
+#include "rendergraph/declare/access_checks.h"
 
 #include <string>
 #include <utility>

@@ -4,7 +4,7 @@
 
 #include <source_location>
 
-#include "rendergraph/declaration.h"
+#include "rendergraph/declare/declaration.h"
 
 namespace rendergraph {
 

@@ -1,5 +1,5 @@
 // The table of usages; see Vulkan 1.3, "Synchronization and Cache Control", tables of access flags and stages.
-#include "rendergraph/access.h"
+#include "rendergraph/declare/access_table.h"
 
 #include <array>
 

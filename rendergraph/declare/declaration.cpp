@@ -1,5 +1,5 @@
 // Life of a declaration's data, and the handle check that everything else relies on.
-#include "rendergraph/declaration.h"
+#include "rendergraph/declare/declaration.h"
 
 #include <atomic>
 #include <string>

@@ -12,11 +12,11 @@
 #include <type_traits>
 #include <vector>
 
-#include "rendergraph/access.h"
-#include "rendergraph/arena.h"
+#include "rendergraph/declare/access_table.h"
+#include "rendergraph/declare/arena.h"
+#include "rendergraph/declare/records.h"
 #include "rendergraph/error.h"
 #include "rendergraph/pass.h"
-#include "rendergraph/records.h"
 #include "rendergraph/resource.h"
 
 namespace rendergraph {

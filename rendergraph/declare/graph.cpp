@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string>
 
-#include "rendergraph/declaration.h"
+#include "rendergraph/declare/declaration.h"
 #include "rendergraph/image_tap.h"
 
 namespace rendergraph {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "rendergraph/declaration.h"
+#include "rendergraph/declare/declaration.h"
 #include "rendergraph/graph.h"
 
 namespace rendergraph {

@@ -1,5 +1,5 @@
 // Words for what a declaration consists of.
-#include "rendergraph/declared_names.h"
+#include "rendergraph/declare/names.h"
 
 namespace rendergraph {
 

@@ -1,7 +1,7 @@
 // Words for what a declaration consists of.
 #pragma once
 
-#include "rendergraph/declaration.h"
+#include "rendergraph/declare/declaration.h"
 #include "rendergraph/pass.h"
 
 namespace rendergraph {

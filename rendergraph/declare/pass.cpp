@@ -3,8 +3,8 @@
 // once.
 #include "rendergraph/pass.h"
 
-#include "rendergraph/access_checks.h"
-#include "rendergraph/declaration.h"
+#include "rendergraph/declare/access_checks.h"
+#include "rendergraph/declare/declaration.h"
 #include "rendergraph/graph.h"
 
 namespace rendergraph {

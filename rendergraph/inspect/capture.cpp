@@ -1,8 +1,8 @@
 // Follows every resource through the frame: who wrote what each read sees.
+#include "rendergraph/capture.h"
+
 #include <algorithm>
 #include <tuple>
-
-#include "rendergraph/capture.h"
 
 namespace rendergraph {
 

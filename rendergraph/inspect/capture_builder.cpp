@@ -1,11 +1,11 @@
 // What follows from declaration and plan: bytes, barriers, lifetimes, memory.
-#include "rendergraph/capture.h"
+#include "rendergraph/inspect/capture_builder.h"
 
 #include <algorithm>
 
-#include "rendergraph/capture_bytes.h"
-#include "rendergraph/declaration.h"
-#include "rendergraph/declared_names.h"
+#include "rendergraph/capture.h"
+#include "rendergraph/declare/declaration.h"
+#include "rendergraph/declare/names.h"
 
 namespace rendergraph {
 

@@ -3,8 +3,8 @@
 #include <string_view>
 
 #include "rendergraph/capture_series.h"
-#include "rendergraph/declared_names.h"
-#include "rendergraph/json_text.h"
+#include "rendergraph/declare/names.h"
+#include "rendergraph/inspect/json_text.h"
 
 namespace rendergraph {
 

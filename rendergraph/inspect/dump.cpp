@@ -5,12 +5,12 @@
 #include <string>
 #include <string_view>
 
-#include "rendergraph/declaration.h"
-#include "rendergraph/declared_names.h"
+#include "rendergraph/declare/declaration.h"
+#include "rendergraph/declare/names.h"
 #include "rendergraph/graph.h"
-#include "rendergraph/json_text.h"
+#include "rendergraph/inspect/json_text.h"
+#include "rendergraph/inspect/vulkan_names.h"
 #include "rendergraph/memory_notes.h"
-#include "rendergraph/vulkan_names.h"
 
 namespace rendergraph {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "rendergraph/declaration.h"
+#include "rendergraph/declare/declaration.h"
 
 namespace rendergraph {
 

@@ -6,8 +6,8 @@
 #include <set>
 #include <string>
 
-#include "rendergraph/declared_names.h"
-#include "rendergraph/json_text.h"
+#include "rendergraph/declare/names.h"
+#include "rendergraph/inspect/json_text.h"
 
 namespace rendergraph {
 

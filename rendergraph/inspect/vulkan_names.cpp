@@ -1,5 +1,5 @@
 // Tables of names.
-#include "rendergraph/vulkan_names.h"
+#include "rendergraph/inspect/vulkan_names.h"
 
 #include <cstdint>
 #include <cstdio>

@@ -8,15 +8,15 @@
 #include <limits>
 #include <numbers>
 
-#include "engine/camera.h"
-#include "engine/commands.h"
-#include "engine/device.h"
+#include "engine/draw/scene_renderer.h"
 #include "engine/error.h"
-#include "engine/graph_backend.h"
-#include "engine/image_io.h"
-#include "engine/scene_gltf.h"
-#include "engine/scene_renderer.h"
-#include "engine/visible_range.h"
+#include "engine/gltf/load_gltf.h"
+#include "engine/graph/graph_backend.h"
+#include "engine/image/image_io.h"
+#include "engine/scene/camera.h"
+#include "engine/scene/visible_range.h"
+#include "engine/vulkan/command_buffers.h"
+#include "engine/vulkan/device.h"
 #include "passes/pinhole/pinhole.h"
 #include "samples/host/read_back.h"
 #include "samples/host/shot_scene.h"

@@ -7,9 +7,9 @@
 #include <string>
 #include <string_view>
 
-#include "engine/environment.h"
-#include "engine/image.h"
-#include "passes/registry.h"
+#include "engine/draw/environment.h"
+#include "engine/image/image.h"
+#include "passes/registry/registry.h"
 #include "rendergraph/capture.h"
 #include "rendergraph/executor.h"
 #include "rendergraph/image_tap.h"

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/lens.h"
+#include "passes/lens/physical_lens.h"
 #include "passes/parameters.h"
 
 namespace host {

@@ -1,7 +1,7 @@
 // Loading of a shot's parts.
 #include "samples/host/shot_scene.h"
 
-#include "engine/scene_gltf.h"
+#include "engine/gltf/load_gltf.h"
 
 namespace host {
 

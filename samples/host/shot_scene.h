@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/camera.h"
-#include "engine/image.h"
-#include "engine/scene.h"
+#include "engine/image/image.h"
+#include "engine/scene/camera.h"
+#include "engine/scene/scene.h"
 #include "samples/host/shot.h"
 
 namespace host {

@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "passes/parameters.h"
-#include "passes/registry.h"
+#include "passes/registry/registry.h"
 
 namespace host {
 

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <span>
 
-#include "engine/image.h"
+#include "engine/image/image.h"
 
 namespace host {
 

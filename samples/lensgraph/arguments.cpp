@@ -13,7 +13,7 @@
 #include "generated/version.h"
 #include "passes/parameters.h"
 #include "samples/host/shot.h"
-#include "samples/lensgraph/commands.h"
+#include "samples/lensgraph/subcommands.h"
 
 namespace cli {
 namespace {

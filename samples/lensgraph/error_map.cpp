@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/metrics.h"
+#include "engine/image/metrics.h"
 
 namespace cli {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "engine/image.h"
+#include "engine/image/image.h"
 
 namespace cli {
 

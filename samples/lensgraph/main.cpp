@@ -12,7 +12,7 @@
 
 #include "engine/error.h"
 #include "rendergraph/error.h"
-#include "samples/lensgraph/commands.h"
+#include "samples/lensgraph/subcommands.h"
 
 namespace {
 

@@ -7,10 +7,10 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/device.h"
+#include "engine/vulkan/device.h"
 #include "samples/host/renderer.h"
 #include "samples/host/technique_choice.h"
-#include "samples/lensgraph/commands.h"
+#include "samples/lensgraph/subcommands.h"
 
 namespace cli {
 

@@ -7,10 +7,10 @@
 #include <string>
 
 #include "bare_technique.h"
-#include "batch_count.h"
-#include "corpus.h"
-#include "passes/registry.h"
+#include "passes/registry/registry.h"
 #include "rendergraph/compiler.h"
+#include "support/batch_count.h"
+#include "support/corpus.h"
 
 namespace bench {
 

@@ -7,11 +7,11 @@
 #include <string>
 
 #include "allocation_count.h"
-#include "corpus.h"
-#include "fake_backend.h"
-#include "rendergraph/aliasing.h"
+#include "rendergraph/compile/memory/packing.h"
 #include "rendergraph/compiler.h"
 #include "rendergraph/executor.h"
+#include "support/corpus.h"
+#include "support/fake_backend.h"
 
 namespace bench {
 

@@ -1,8 +1,8 @@
 // Bad input: exit status 2, one line that says file, field and reason, and nothing left behind.
 #include <cmath>
 
-#include "engine/image.h"
-#include "engine/image_io.h"
+#include "engine/image/image.h"
+#include "engine/image/image_io.h"
 #include "program.h"
 
 namespace {

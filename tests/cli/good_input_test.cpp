@@ -6,10 +6,10 @@
 #include <fstream>
 #include <iterator>
 
-#include "engine/image.h"
-#include "engine/image_io.h"
-#include "engine/metrics.h"
-#include "passes/registry.h"
+#include "engine/image/image.h"
+#include "engine/image/image_io.h"
+#include "engine/image/metrics.h"
+#include "passes/registry/registry.h"
 #include "program.h"
 
 namespace {

@@ -4,8 +4,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "engine/image.h"
-#include "engine/image_io.h"
+#include "engine/image/image.h"
+#include "engine/image/image_io.h"
 #include "program.h"
 
 namespace {

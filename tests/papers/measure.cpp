@@ -7,10 +7,10 @@
 #include <filesystem>
 #include <fstream>
 
-#include "engine/device.h"
 #include "engine/error.h"
-#include "engine/image_io.h"
-#include "engine/metrics.h"
+#include "engine/image/image_io.h"
+#include "engine/image/metrics.h"
+#include "engine/vulkan/device.h"
 
 namespace papers {
 namespace {

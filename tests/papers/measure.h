@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "engine/image.h"
+#include "engine/image/image.h"
 #include "samples/host/renderer.h"
 #include "samples/host/shot.h"
 

@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <memory>
 
-#include "engine/image_io.h"
-#include "engine/metrics.h"
+#include "engine/image/image_io.h"
+#include "engine/image/metrics.h"
 #include "tests/support/gpu/gpu_test.h"
 
 namespace {

@@ -1,9 +1,9 @@
 // Coordinate compression of the declared ranges.
-#include "rendergraph/cells.h"
+#include "rendergraph/compile/flow/cells.h"
 
 #include <algorithm>
 
-#include "rendergraph/declaration.h"
+#include "rendergraph/declare/declaration.h"
 
 namespace rendergraph {
 

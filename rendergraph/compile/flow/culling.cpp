@@ -1,12 +1,12 @@
 // Liveness from the observable ends backwards, as a compiler removes dead code, and the reasons for what is left out.
-#include "rendergraph/culling.h"
+#include "rendergraph/compile/flow/culling.h"
 
 #include <algorithm>
 #include <string>
 
-#include "rendergraph/cells.h"
-#include "rendergraph/declaration.h"
-#include "rendergraph/dependencies.h"
+#include "rendergraph/compile/flow/cells.h"
+#include "rendergraph/compile/flow/dependencies.h"
+#include "rendergraph/declare/declaration.h"
 
 namespace rendergraph {
 

@@ -1,9 +1,9 @@
 // Dependencies follow from the order of the declaration calls: each cell remembers its last writer and the readers
 // since. Handle versions guarantee that this order is the one the host's data flow means.
-#include "rendergraph/dependencies.h"
+#include "rendergraph/compile/flow/dependencies.h"
 
-#include "rendergraph/cells.h"
-#include "rendergraph/declaration.h"
+#include "rendergraph/compile/flow/cells.h"
+#include "rendergraph/declare/declaration.h"
 
 namespace rendergraph {
 

@@ -1,6 +1,6 @@
-#include "rendergraph/resource_uses.h"
+#include "rendergraph/compile/flow/resource_needs.h"
 
-#include "rendergraph/declaration.h"
+#include "rendergraph/declare/declaration.h"
 
 namespace rendergraph {
 

@@ -1,4 +1,4 @@
-#include "rendergraph/barrier_scopes.h"
+#include "rendergraph/compile/flow/stage_masks.h"
 
 namespace rendergraph {
 

@@ -6,7 +6,7 @@
 #include <array>
 #include <cstddef>
 
-#include "rendergraph/access.h"
+#include "rendergraph/declare/access_table.h"
 
 namespace rendergraph {
 

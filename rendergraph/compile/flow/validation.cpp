@@ -1,10 +1,10 @@
 // Content that nothing wrote, states that imports lack, limits of the device.
-#include "rendergraph/validation.h"
+#include "rendergraph/compile/flow/validation.h"
 
 #include <string>
 
-#include "rendergraph/cells.h"
-#include "rendergraph/declaration.h"
+#include "rendergraph/compile/flow/cells.h"
+#include "rendergraph/declare/declaration.h"
 
 namespace rendergraph {
 

@@ -6,8 +6,8 @@
 #include <functional>
 #include <numeric>
 
-#include "rendergraph/aliasing.h"
-#include "rendergraph/deterministic_random.h"
+#include "rendergraph/compile/memory/packing.h"
+#include "rendergraph/compile/schedule/deterministic_random.h"
 
 namespace rendergraph {
 

@@ -9,7 +9,7 @@
 #include <numeric>
 #include <utility>
 
-#include "rendergraph/aliasing.h"
+#include "rendergraph/compile/memory/packing.h"
 
 namespace rendergraph {
 

@@ -1,6 +1,6 @@
 // Sweeps over time with, for each heap, its byte ranges and their latest occupants. With overlapping frames the sweep
 // is done twice, and the second one starts from what the first one left.
-#include "rendergraph/occupants.h"
+#include "rendergraph/compile/memory/memory_predecessors.h"
 
 #include <algorithm>
 

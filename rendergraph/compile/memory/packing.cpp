@@ -1,5 +1,5 @@
 // The two ends between which every packing lies.
-#include "rendergraph/aliasing.h"
+#include "rendergraph/compile/memory/packing.h"
 
 #include <algorithm>
 

@@ -1,14 +1,14 @@
 // On several queues a resource counts as alive until the last step that may run beside its last use, so that nothing
 // has to wait for memory that it would not wait for otherwise.
-#include "rendergraph/placements.h"
+#include "rendergraph/compile/memory/placements.h"
 
 #include <algorithm>
 #include <vector>
 
-#include "rendergraph/aliasing.h"
-#include "rendergraph/declaration.h"
-#include "rendergraph/schedule.h"
-#include "rendergraph/submissions.h"
+#include "rendergraph/compile/memory/packing.h"
+#include "rendergraph/compile/schedule/schedule.h"
+#include "rendergraph/compile/schedule/submissions.h"
+#include "rendergraph/declare/declaration.h"
 
 namespace rendergraph {
 

@@ -3,10 +3,10 @@
 
 #include <span>
 
+#include "rendergraph/compile/flow/resource_needs.h"
+#include "rendergraph/compile/schedule/queues.h"
 #include "rendergraph/compiler.h"
 #include "rendergraph/plan.h"
-#include "rendergraph/queues.h"
-#include "rendergraph/resource_uses.h"
 
 namespace rendergraph {
 

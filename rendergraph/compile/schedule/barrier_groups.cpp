@@ -5,16 +5,16 @@
 //
 // On graphs of parallel lanes this gives a schedule near the longest chain at the memory of the declared order: lanes
 // advance at different times, so that their large textures do not meet.
-#include "rendergraph/grouping.h"
+#include "rendergraph/compile/schedule/barrier_groups.h"
 
 #include <algorithm>
 #include <limits>
 #include <tuple>
 #include <utility>
 
-#include "rendergraph/deterministic_random.h"
-#include "rendergraph/live_bytes.h"
-#include "rendergraph/waiting.h"
+#include "rendergraph/compile/schedule/deterministic_random.h"
+#include "rendergraph/compile/schedule/live_bytes.h"
+#include "rendergraph/compile/schedule/ready_passes.h"
 
 namespace rendergraph {
 

@@ -1,10 +1,10 @@
 // Sorts the uses of all cells by counting.
-#include "rendergraph/timeline.h"
+#include "rendergraph/compile/schedule/cell_uses.h"
 
-#include "rendergraph/barrier_scopes.h"
-#include "rendergraph/cells.h"
-#include "rendergraph/declaration.h"
-#include "rendergraph/schedule.h"
+#include "rendergraph/compile/flow/cells.h"
+#include "rendergraph/compile/flow/stage_masks.h"
+#include "rendergraph/compile/schedule/schedule.h"
+#include "rendergraph/declare/declaration.h"
 
 namespace rendergraph {
 

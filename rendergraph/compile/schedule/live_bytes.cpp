@@ -1,9 +1,9 @@
-#include "rendergraph/live_bytes.h"
+#include "rendergraph/compile/schedule/live_bytes.h"
 
 #include <algorithm>
 #include <numeric>
 
-#include "rendergraph/declaration.h"
+#include "rendergraph/declare/declaration.h"
 
 namespace rendergraph {
 

@@ -1,17 +1,17 @@
 // List scheduling: among the passes whose predecessors are done, a policy chooses the next. Ties go to the pass
 // declared first, so equal declarations give equal orders.
-#include "rendergraph/ordering.h"
+#include "rendergraph/compile/schedule/ordering.h"
 
 #include <algorithm>
 #include <functional>
 #include <queue>
 #include <tuple>
 
-#include "rendergraph/declaration.h"
-#include "rendergraph/dependencies.h"
-#include "rendergraph/grouping.h"
-#include "rendergraph/live_bytes.h"
-#include "rendergraph/waiting.h"
+#include "rendergraph/compile/flow/dependencies.h"
+#include "rendergraph/compile/schedule/barrier_groups.h"
+#include "rendergraph/compile/schedule/live_bytes.h"
+#include "rendergraph/compile/schedule/ready_passes.h"
+#include "rendergraph/declare/declaration.h"
 
 namespace rendergraph {
 

@@ -1,9 +1,9 @@
-#include "rendergraph/queues.h"
+#include "rendergraph/compile/schedule/queues.h"
 
-#include "rendergraph/cells.h"
-#include "rendergraph/declaration.h"
-#include "rendergraph/schedule.h"
-#include "rendergraph/timeline.h"
+#include "rendergraph/compile/flow/cells.h"
+#include "rendergraph/compile/schedule/cell_uses.h"
+#include "rendergraph/compile/schedule/schedule.h"
+#include "rendergraph/declare/declaration.h"
 
 namespace rendergraph {
 

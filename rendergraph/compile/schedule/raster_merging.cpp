@@ -1,7 +1,7 @@
-#include "rendergraph/raster_merging.h"
+#include "rendergraph/compile/schedule/raster_merging.h"
 
-#include "rendergraph/declaration.h"
-#include "rendergraph/schedule.h"
+#include "rendergraph/compile/schedule/schedule.h"
+#include "rendergraph/declare/declaration.h"
 
 namespace rendergraph {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "rendergraph/dependencies.h"
+#include "rendergraph/compile/flow/dependencies.h"
 
 namespace rendergraph {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "rendergraph/ordering.h"
+#include "rendergraph/compile/schedule/ordering.h"
 
 namespace rendergraph {
 

@@ -1,4 +1,4 @@
-#include "rendergraph/queue_order.h"
+#include "rendergraph/compile/schedule/submission_order.h"
 
 namespace rendergraph {
 

@@ -2,16 +2,16 @@
 // is found with vector clocks: for every queue, how far it knows each other queue to be. A wait is left out when the
 // queue knows enough already, be it through a third queue; then only its stages are added to the wait that told it.
 // Which of these nobody relies on shows when the barriers are known (wait_needs.h).
-#include "rendergraph/submissions.h"
+#include "rendergraph/compile/schedule/submissions.h"
 
 #include <algorithm>
 #include <numeric>
 
-#include "rendergraph/barrier_scopes.h"
-#include "rendergraph/cells.h"
-#include "rendergraph/declaration.h"
-#include "rendergraph/schedule.h"
-#include "rendergraph/timeline.h"
+#include "rendergraph/compile/flow/cells.h"
+#include "rendergraph/compile/flow/stage_masks.h"
+#include "rendergraph/compile/schedule/cell_uses.h"
+#include "rendergraph/compile/schedule/schedule.h"
+#include "rendergraph/declare/declaration.h"
 
 namespace rendergraph {
 

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "rendergraph/compile/schedule/queues.h"
 #include "rendergraph/plan.h"
-#include "rendergraph/queues.h"
 
 namespace rendergraph {
 

@@ -1,13 +1,13 @@
 // The fewest batches for given intervals are found by stabbing them: by their right ends, each barrier joins the
 // latest batch that lies in its interval, and founds one at its right end when there is none. No set of batches can
 // be smaller, because the founders' intervals do not overlap.
-#include "rendergraph/barrier_placement.h"
+#include "rendergraph/compile/sync/barrier_batching.h"
 
 #include <algorithm>
 #include <numeric>
 
-#include "rendergraph/declaration.h"
-#include "rendergraph/schedule.h"
+#include "rendergraph/compile/schedule/schedule.h"
+#include "rendergraph/declare/declaration.h"
 
 namespace rendergraph {
 

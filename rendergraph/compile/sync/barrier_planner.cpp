@@ -19,11 +19,11 @@
 //
 // Every barrier names its resource, and none is left out because a barrier of another resource happens to order the
 // same stages: layered validation reasons per resource, and within a batch the extra entry waits for nothing new.
-#include "rendergraph/barriers.h"
+#include "rendergraph/compile/sync/barrier_planner.h"
 
-#include "rendergraph/access.h"
-#include "rendergraph/barrier_merging.h"
-#include "rendergraph/barrier_planner.h"
+#include "rendergraph/compile/sync/plan_barriers.h"
+#include "rendergraph/compile/sync/range_merging.h"
+#include "rendergraph/declare/access_table.h"
 
 namespace rendergraph {
 

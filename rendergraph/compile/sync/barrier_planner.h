@@ -7,16 +7,16 @@
 #include <span>
 #include <vector>
 
-#include "rendergraph/barrier_placement.h"
-#include "rendergraph/barrier_scopes.h"
-#include "rendergraph/barrier_trimming.h"
-#include "rendergraph/barriers.h"
-#include "rendergraph/cells.h"
-#include "rendergraph/declaration.h"
-#include "rendergraph/occupants.h"
-#include "rendergraph/schedule.h"
-#include "rendergraph/submissions.h"
-#include "rendergraph/timeline.h"
+#include "rendergraph/compile/flow/cells.h"
+#include "rendergraph/compile/flow/stage_masks.h"
+#include "rendergraph/compile/memory/memory_predecessors.h"
+#include "rendergraph/compile/schedule/cell_uses.h"
+#include "rendergraph/compile/schedule/schedule.h"
+#include "rendergraph/compile/schedule/submissions.h"
+#include "rendergraph/compile/sync/barrier_batching.h"
+#include "rendergraph/compile/sync/barrier_trimming.h"
+#include "rendergraph/compile/sync/plan_barriers.h"
+#include "rendergraph/declare/declaration.h"
 
 namespace rendergraph {
 

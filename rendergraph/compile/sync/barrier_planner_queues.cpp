@@ -8,7 +8,7 @@
 // what semaphores have seen to is taken from it afterwards (barrier_trimming.h).
 #include <algorithm>
 
-#include "rendergraph/barrier_planner.h"
+#include "rendergraph/compile/sync/barrier_planner.h"
 
 namespace rendergraph {
 

@@ -1,11 +1,11 @@
-#include "rendergraph/barrier_trimming.h"
+#include "rendergraph/compile/sync/barrier_trimming.h"
 
 #include <algorithm>
 #include <cassert>
 
-#include "rendergraph/declaration.h"
-#include "rendergraph/schedule.h"
-#include "rendergraph/submissions.h"
+#include "rendergraph/compile/schedule/schedule.h"
+#include "rendergraph/compile/schedule/submissions.h"
+#include "rendergraph/declare/declaration.h"
 
 namespace rendergraph {
 

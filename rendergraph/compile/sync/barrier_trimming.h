@@ -10,13 +10,13 @@
 #include <span>
 #include <vector>
 
-#include "rendergraph/barrier_placement.h"
-#include "rendergraph/barriers.h"
-#include "rendergraph/cell_hazards.h"
-#include "rendergraph/occupants.h"
-#include "rendergraph/queue_order.h"
-#include "rendergraph/timeline.h"
-#include "rendergraph/wait_needs.h"
+#include "rendergraph/compile/memory/memory_predecessors.h"
+#include "rendergraph/compile/schedule/cell_uses.h"
+#include "rendergraph/compile/schedule/submission_order.h"
+#include "rendergraph/compile/sync/barrier_batching.h"
+#include "rendergraph/compile/sync/hazard_tracker.h"
+#include "rendergraph/compile/sync/plan_barriers.h"
+#include "rendergraph/compile/sync/wait_minimizer.h"
 
 namespace rendergraph {
 

@@ -1,11 +1,11 @@
 // Whether a cell's next epoch respects the records of what was before; hazard_records.cpp makes them.
-#include "rendergraph/cell_hazards.h"
+#include "rendergraph/compile/sync/hazard_tracker.h"
 
 #include <algorithm>
 #include <bit>
 
-#include "rendergraph/barrier_scopes.h"
-#include "rendergraph/declaration.h"
+#include "rendergraph/compile/flow/stage_masks.h"
+#include "rendergraph/declare/declaration.h"
 
 namespace rendergraph {
 

@@ -2,12 +2,12 @@
 // before.
 #include <algorithm>
 
-#include "rendergraph/barrier_scopes.h"
-#include "rendergraph/cell_hazards.h"
-#include "rendergraph/cells.h"
-#include "rendergraph/declaration.h"
-#include "rendergraph/schedule.h"
-#include "rendergraph/submissions.h"
+#include "rendergraph/compile/flow/cells.h"
+#include "rendergraph/compile/flow/stage_masks.h"
+#include "rendergraph/compile/schedule/schedule.h"
+#include "rendergraph/compile/schedule/submissions.h"
+#include "rendergraph/compile/sync/hazard_tracker.h"
+#include "rendergraph/declare/declaration.h"
 
 namespace rendergraph {
 

@@ -3,9 +3,9 @@
 
 #include <span>
 
+#include "rendergraph/compile/schedule/queues.h"
 #include "rendergraph/compiler.h"
 #include "rendergraph/plan.h"
-#include "rendergraph/queues.h"
 
 namespace rendergraph {
 

@@ -1,5 +1,5 @@
 // Three sweeps: along layers, along mips, over aspects. Ranges stay rectangles.
-#include "rendergraph/barrier_merging.h"
+#include "rendergraph/compile/sync/range_merging.h"
 
 #include <algorithm>
 #include <tuple>

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "rendergraph/barrier_placement.h"
+#include "rendergraph/compile/sync/barrier_batching.h"
 
 namespace rendergraph {
 

@@ -1,6 +1,6 @@
 // A stage may go when all that it serves has another one. Each is looked at once: what is needed now is needed all the
 // more when others are gone.
-#include "rendergraph/wait_needs.h"
+#include "rendergraph/compile/sync/wait_minimizer.h"
 
 #include <algorithm>
 #include <utility>

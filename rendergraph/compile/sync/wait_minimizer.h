@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
+#include "rendergraph/compile/schedule/submission_order.h"
 #include "rendergraph/plan.h"
-#include "rendergraph/queue_order.h"
 
 namespace rendergraph {
 

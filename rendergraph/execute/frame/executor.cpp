@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "rendergraph/capture_bytes.h"
-#include "rendergraph/executor_state.h"
-#include "rendergraph/frame.h"
+#include "rendergraph/execute/frame/executor_state.h"
+#include "rendergraph/execute/frame/frame_runner.h"
+#include "rendergraph/inspect/capture_builder.h"
 
 namespace rendergraph {
 

@@ -1,5 +1,5 @@
 // Slots and their frames: opened, filled, waited for, given up.
-#include "rendergraph/executor_state.h"
+#include "rendergraph/execute/frame/executor_state.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "rendergraph/capture_bytes.h"
+#include "rendergraph/inspect/capture_builder.h"
 
 namespace rendergraph {
 

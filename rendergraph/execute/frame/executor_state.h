@@ -5,15 +5,15 @@
 #include <memory>
 #include <vector>
 
+#include "rendergraph/execute/frame/frame_in_flight.h"
+#include "rendergraph/execute/frame/plan_cache.h"
+#include "rendergraph/execute/frame/recording_context.h"
+#include "rendergraph/execute/frame/step_recorder.h"
+#include "rendergraph/execute/resources/deletion_queue.h"
+#include "rendergraph/execute/resources/persistent_store.h"
+#include "rendergraph/execute/resources/plan_resources.h"
 #include "rendergraph/executor.h"
-#include "rendergraph/frame_context.h"
-#include "rendergraph/frame_slot.h"
-#include "rendergraph/graveyard.h"
 #include "rendergraph/jobs.h"
-#include "rendergraph/plan_cache.h"
-#include "rendergraph/plan_resources.h"
-#include "rendergraph/retained_store.h"
-#include "rendergraph/step_recorder.h"
 
 namespace rendergraph {
 

@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "rendergraph/binding_table.h"
 #include "rendergraph/capture.h"
-#include "rendergraph/frame_context.h"
-#include "rendergraph/owned.h"
-#include "rendergraph/view_cache.h"
+#include "rendergraph/execute/frame/recording_context.h"
+#include "rendergraph/execute/resources/resource_table.h"
+#include "rendergraph/execute/resources/unique_handle.h"
+#include "rendergraph/execute/resources/view_cache.h"
 
 namespace rendergraph {
 

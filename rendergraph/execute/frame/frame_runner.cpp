@@ -1,7 +1,7 @@
 // One execution, submission by submission. The submissions up to the next host pass make a segment: its steps are cut
 // into chunks, one command buffer each, which several threads record; then the segment's submissions go to their
 // queues in order.
-#include "rendergraph/frame.h"
+#include "rendergraph/execute/frame/frame_runner.h"
 
 #include <algorithm>
 #include <array>

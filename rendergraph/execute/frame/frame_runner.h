@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "rendergraph/executor_state.h"
+#include "rendergraph/execute/frame/executor_state.h"
 
 namespace rendergraph {
 

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <string>
 
+#include "rendergraph/execute/frame/step_recorder.h"
 #include "rendergraph/pass.h"
-#include "rendergraph/step_recorder.h"
 
 namespace rendergraph {
 

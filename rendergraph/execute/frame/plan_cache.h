@@ -6,9 +6,9 @@
 #include <memory>
 #include <vector>
 
-#include "rendergraph/graveyard.h"
+#include "rendergraph/execute/resources/deletion_queue.h"
+#include "rendergraph/execute/resources/plan_resources.h"
 #include "rendergraph/plan.h"
-#include "rendergraph/plan_resources.h"
 
 namespace rendergraph {
 

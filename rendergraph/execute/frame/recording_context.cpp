@@ -1,8 +1,8 @@
 // Views on demand.
-#include "rendergraph/frame_context.h"
+#include "rendergraph/execute/frame/recording_context.h"
 
-#include "rendergraph/naming.h"
-#include "rendergraph/view_cache.h"
+#include "rendergraph/execute/resources/error_names.h"
+#include "rendergraph/execute/resources/view_cache.h"
 
 namespace rendergraph {
 

@@ -6,11 +6,11 @@
 #include <mutex>
 #include <span>
 
-#include "rendergraph/binding_table.h"
 #include "rendergraph/capture.h"
-#include "rendergraph/declaration.h"
+#include "rendergraph/declare/declaration.h"
+#include "rendergraph/execute/resources/resource_table.h"
+#include "rendergraph/execute/resources/unique_handle.h"
 #include "rendergraph/executor.h"
-#include "rendergraph/owned.h"
 #include "rendergraph/plan.h"
 
 namespace rendergraph {

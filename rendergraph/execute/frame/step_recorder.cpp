@@ -1,9 +1,9 @@
 // One step: events, barriers, rendering, the pass's own recording.
-#include "rendergraph/step_recorder.h"
+#include "rendergraph/execute/frame/step_recorder.h"
 
 #include <iterator>
 
-#include "rendergraph/naming.h"
+#include "rendergraph/execute/resources/error_names.h"
 #include "rendergraph/pass.h"
 
 namespace rendergraph {

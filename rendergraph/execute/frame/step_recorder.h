@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "rendergraph/backend.h"
-#include "rendergraph/frame_context.h"
+#include "rendergraph/execute/frame/recording_context.h"
 
 namespace rendergraph {
 

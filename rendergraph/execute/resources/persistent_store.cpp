@@ -1,11 +1,11 @@
 // Persistent content: made, zeroed, kept, swapped.
-#include "rendergraph/retained_store.h"
+#include "rendergraph/execute/resources/persistent_store.h"
 
 #include <algorithm>
 #include <string>
 
-#include "rendergraph/declaration.h"
-#include "rendergraph/naming.h"
+#include "rendergraph/declare/declaration.h"
+#include "rendergraph/execute/resources/error_names.h"
 
 namespace rendergraph {
 

@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "rendergraph/binding_table.h"
-#include "rendergraph/graveyard.h"
-#include "rendergraph/owned.h"
+#include "rendergraph/execute/resources/deletion_queue.h"
+#include "rendergraph/execute/resources/resource_table.h"
+#include "rendergraph/execute/resources/unique_handle.h"
+#include "rendergraph/execute/resources/view_cache.h"
 #include "rendergraph/plan.h"
-#include "rendergraph/view_cache.h"
 
 namespace rendergraph {
 

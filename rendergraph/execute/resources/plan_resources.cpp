@@ -1,10 +1,10 @@
 // Makes and shares memory.
-#include "rendergraph/plan_resources.h"
+#include "rendergraph/execute/resources/plan_resources.h"
 
 #include <algorithm>
 
-#include "rendergraph/declaration.h"
-#include "rendergraph/naming.h"
+#include "rendergraph/declare/declaration.h"
+#include "rendergraph/execute/resources/error_names.h"
 
 namespace rendergraph {
 

@@ -9,10 +9,10 @@
 #include <span>
 #include <vector>
 
-#include "rendergraph/binding_table.h"
-#include "rendergraph/owned.h"
+#include "rendergraph/execute/resources/resource_table.h"
+#include "rendergraph/execute/resources/unique_handle.h"
+#include "rendergraph/execute/resources/view_cache.h"
 #include "rendergraph/plan.h"
-#include "rendergraph/view_cache.h"
 
 namespace rendergraph {
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "rendergraph/owned.h"
+#include "rendergraph/execute/resources/unique_handle.h"
 
 namespace rendergraph {
 

@@ -1,5 +1,5 @@
 // Matching of passes, weighing of changes: see capture_diff.h.
-#include "samples/lensgraph/capture_diff.h"
+#include "samples/lensgraph/capture/capture_diff.h"
 
 #include <algorithm>
 #include <cmath>

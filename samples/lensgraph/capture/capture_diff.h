@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "samples/lensgraph/capture_reader.h"
+#include "samples/lensgraph/capture/capture_reader.h"
 
 namespace cli {
 

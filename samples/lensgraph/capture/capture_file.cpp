@@ -1,5 +1,5 @@
 // Captures as JSON: see capture_file.h.
-#include "samples/lensgraph/capture_file.h"
+#include "samples/lensgraph/capture/capture_file.h"
 
 #include <cmath>
 #include <cstdio>
@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "engine/lens.h"
 #include "generated/version.h"
+#include "passes/lens/physical_lens.h"
 
 namespace cli {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/device.h"
+#include "engine/vulkan/device.h"
 #include "passes/parameters.h"
 #include "rendergraph/capture_series.h"
 #include "samples/host/renderer.h"

@@ -1,10 +1,10 @@
 // Checking of capture files: see capture_reader.h.
-#include "samples/lensgraph/capture_reader.h"
+#include "samples/lensgraph/capture/capture_reader.h"
 
 #include <limits>
 
 #include "samples/host/json_reader.h"
-#include "samples/lensgraph/capture_file.h"
+#include "samples/lensgraph/capture/capture_file.h"
 
 namespace cli {
 namespace {

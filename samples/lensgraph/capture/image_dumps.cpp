@@ -1,5 +1,5 @@
 // Measuring frames and looking into them: see looks.h.
-#include "samples/lensgraph/looks.h"
+#include "samples/lensgraph/capture/image_dumps.h"
 
 #include <charconv>
 #include <cstdio>
@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "engine/error.h"
-#include "engine/image_io.h"
+#include "engine/image/image_io.h"
 #include "rendergraph/trace.h"
 #include "samples/lensgraph/session.h"
 

@@ -5,13 +5,13 @@
 #include <optional>
 #include <vector>
 
-#include "engine/device.h"
+#include "engine/vulkan/device.h"
 #include "rendergraph/image_tap.h"
 #include "samples/host/renderer.h"
 #include "samples/host/technique_choice.h"
-#include "samples/lensgraph/capture_file.h"
-#include "samples/lensgraph/commands.h"
+#include "samples/lensgraph/capture/capture_file.h"
 #include "samples/lensgraph/output.h"
+#include "samples/lensgraph/subcommands.h"
 
 namespace cli {
 

@@ -1,11 +1,11 @@
 // lensgraph apply: a technique on a picture and its depth, wherever they come from.
 #include "engine/error.h"
-#include "engine/image_io.h"
-#include "samples/lensgraph/commands.h"
-#include "samples/lensgraph/looks.h"
+#include "engine/image/image_io.h"
+#include "samples/lensgraph/capture/image_dumps.h"
 #include "samples/lensgraph/output.h"
 #include "samples/lensgraph/progress.h"
 #include "samples/lensgraph/session.h"
+#include "samples/lensgraph/subcommands.h"
 
 namespace cli {
 namespace {

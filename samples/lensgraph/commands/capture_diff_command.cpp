@@ -4,9 +4,9 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "samples/lensgraph/capture_diff.h"
-#include "samples/lensgraph/capture_file.h"
-#include "samples/lensgraph/commands.h"
+#include "samples/lensgraph/capture/capture_diff.h"
+#include "samples/lensgraph/capture/capture_file.h"
+#include "samples/lensgraph/subcommands.h"
 
 namespace cli {
 namespace {

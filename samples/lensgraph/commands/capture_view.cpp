@@ -4,10 +4,10 @@
 #include <string_view>
 
 #include "engine/error.h"
-#include "samples/lensgraph/capture_page.h"
-#include "samples/lensgraph/capture_reader.h"
-#include "samples/lensgraph/commands.h"
+#include "samples/lensgraph/capture/capture_reader.h"
 #include "samples/lensgraph/output.h"
+#include "samples/lensgraph/pages/capture_page.h"
+#include "samples/lensgraph/subcommands.h"
 
 namespace cli {
 namespace {

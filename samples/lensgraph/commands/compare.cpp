@@ -3,10 +3,10 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "engine/image_io.h"
-#include "engine/metrics.h"
-#include "samples/lensgraph/capture_file.h"
-#include "samples/lensgraph/commands.h"
+#include "engine/image/image_io.h"
+#include "engine/image/metrics.h"
+#include "samples/lensgraph/capture/capture_file.h"
+#include "samples/lensgraph/subcommands.h"
 
 namespace cli {
 

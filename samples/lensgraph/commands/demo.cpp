@@ -5,15 +5,15 @@
 #include <iostream>
 
 #include "engine/error.h"
-#include "engine/image_io.h"
-#include "engine/metrics.h"
+#include "engine/image/image_io.h"
+#include "engine/image/metrics.h"
 #include "generated/version.h"
-#include "samples/lensgraph/commands.h"
-#include "samples/lensgraph/demo_page.h"
 #include "samples/lensgraph/error_map.h"
 #include "samples/lensgraph/output.h"
+#include "samples/lensgraph/pages/demo_page.h"
 #include "samples/lensgraph/progress.h"
 #include "samples/lensgraph/session.h"
+#include "samples/lensgraph/subcommands.h"
 
 namespace cli {
 namespace {

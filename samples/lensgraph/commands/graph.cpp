@@ -5,9 +5,9 @@
 #include <sstream>
 
 #include "rendergraph/dump.h"
-#include "samples/lensgraph/commands.h"
 #include "samples/lensgraph/output.h"
 #include "samples/lensgraph/session.h"
+#include "samples/lensgraph/subcommands.h"
 
 namespace cli {
 

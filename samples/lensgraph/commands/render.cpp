@@ -1,11 +1,11 @@
 // lensgraph render: a shot file into a picture.
-#include "engine/image_io.h"
-#include "samples/lensgraph/capture_file.h"
-#include "samples/lensgraph/commands.h"
-#include "samples/lensgraph/looks.h"
+#include "engine/image/image_io.h"
+#include "samples/lensgraph/capture/capture_file.h"
+#include "samples/lensgraph/capture/image_dumps.h"
 #include "samples/lensgraph/output.h"
 #include "samples/lensgraph/progress.h"
 #include "samples/lensgraph/session.h"
+#include "samples/lensgraph/subcommands.h"
 
 namespace cli {
 namespace {

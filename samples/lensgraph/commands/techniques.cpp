@@ -3,11 +3,11 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "engine/device.h"
-#include "passes/registry.h"
-#include "samples/lensgraph/capture_file.h"
-#include "samples/lensgraph/commands.h"
+#include "engine/vulkan/device.h"
+#include "passes/registry/registry.h"
+#include "samples/lensgraph/capture/capture_file.h"
 #include "samples/lensgraph/session.h"
+#include "samples/lensgraph/subcommands.h"
 
 namespace cli {
 namespace {

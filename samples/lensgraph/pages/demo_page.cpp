@@ -1,5 +1,5 @@
 // The demo's page and table: see demo_page.h.
-#include "samples/lensgraph/demo_page.h"
+#include "samples/lensgraph/pages/demo_page.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "samples/lensgraph/error_map.h"
-#include "samples/lensgraph/page_template.h"
+#include "samples/lensgraph/pages/page_template.h"
 
 namespace cli {
 namespace {

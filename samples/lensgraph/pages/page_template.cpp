@@ -1,5 +1,5 @@
 // The template engine: see page_template.h.
-#include "samples/lensgraph/page_template.h"
+#include "samples/lensgraph/pages/page_template.h"
 
 #include <nlohmann/json.hpp>
 #include <stdexcept>

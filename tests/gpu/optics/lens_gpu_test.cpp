@@ -12,8 +12,8 @@
 #include <limits>
 #include <random>
 
-#include "engine/commands.h"
-#include "engine/graph_backend.h"
+#include "engine/graph/graph_backend.h"
+#include "engine/vulkan/command_buffers.h"
 #include "rendergraph/executor.h"
 #include "spirv/test/lens_comp.h"
 #include "tests/gpu/shaders/lens_cases.h"

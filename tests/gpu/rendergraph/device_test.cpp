@@ -1,5 +1,5 @@
 // Listing and choosing devices, as a user of --device meets it.
-#include "engine/device.h"
+#include "engine/vulkan/device.h"
 
 #include <gmock/gmock.h>
 

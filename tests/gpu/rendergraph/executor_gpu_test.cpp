@@ -5,7 +5,7 @@
 #include <cstring>
 #include <fstream>
 
-#include "engine/graph_backend.h"
+#include "engine/graph/graph_backend.h"
 #include "rendergraph/executor.h"
 #include "tests/support/gpu/gpu_test.h"
 #include "tests/support/gpu/test_scenes.h"

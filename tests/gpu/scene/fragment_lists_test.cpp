@@ -7,9 +7,9 @@
 #include <random>
 #include <tuple>
 
-#include "engine/graph_backend.h"
+#include "engine/graph/graph_backend.h"
 #include "passes/multilayer_filtering/nodes.h"
-#include "passes/statistics.h"
+#include "passes/nodes/statistics.h"
 #include "shaders/shared/statistics.h"
 #include "spirv/test/heads_comp.h"
 #include "tests/support/gpu/device_buffers.h"

@@ -1,4 +1,4 @@
-#include "tests/gpu/image_technique.h"
+#include "tests/gpu/techniques/image_technique.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <span>
 #include <stdexcept>
 
-#include "engine/graph_backend.h"
-#include "engine/memory.h"
+#include "engine/graph/graph_backend.h"
+#include "engine/vulkan/memory.h"
 #include "tests/support/gpu/gpu_test.h"
 
 namespace support {

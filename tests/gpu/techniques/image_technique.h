@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "passes/registry.h"
+#include "passes/registry/registry.h"
 #include "rendergraph/executor.h"
 #include "shaders/shared/statistics.h"
 

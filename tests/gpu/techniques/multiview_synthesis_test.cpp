@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/environment.h"
-#include "engine/metrics.h"
+#include "engine/draw/environment.h"
+#include "engine/image/metrics.h"
 #include "tests/support/gpu/gpu_test.h"
 #include "tests/support/gpu/spot.h"
 #include "tests/support/gpu/test_scenes.h"

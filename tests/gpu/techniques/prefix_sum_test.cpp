@@ -1,12 +1,12 @@
 // The prefix sum against the host's, over sizes around its blocks.
-#include "passes/prefix_sum.h"
+#include "passes/nodes/prefix_sum.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 #include <utility>
 
-#include "engine/graph_backend.h"
+#include "engine/graph/graph_backend.h"
 #include "tests/support/gpu/device_buffers.h"
 #include "tests/support/gpu/gpu_test.h"
 

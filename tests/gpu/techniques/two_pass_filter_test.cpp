@@ -5,7 +5,7 @@
 #include <limits>
 #include <random>
 
-#include "tests/gpu/image_technique.h"
+#include "tests/gpu/techniques/image_technique.h"
 #include "tests/support/gpu/gpu_test.h"
 #include "tests/support/two_pass_filter_reference.h"
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/commands.h"
+#include "engine/vulkan/command_buffers.h"
 #include "rendergraph/executor.h"
 #include "rendergraph/graph.h"
 

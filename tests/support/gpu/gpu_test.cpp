@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <memory>
 
-#include "engine/image_io.h"
+#include "engine/image/image_io.h"
 
 namespace support {
 namespace {

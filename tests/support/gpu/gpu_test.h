@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/device.h"
+#include "engine/vulkan/device.h"
 #include "samples/host/renderer.h"
 
 namespace support {

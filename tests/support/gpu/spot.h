@@ -1,8 +1,8 @@
 // The blur of a point light, measured in a picture.
 #pragma once
 
-#include "engine/image.h"
-#include "engine/scene.h"
+#include "engine/image/image.h"
+#include "engine/scene/scene.h"
 #include "samples/host/shot.h"
 
 namespace support {

@@ -5,7 +5,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include "engine/scene.h"
+#include "engine/scene/scene.h"
 #include "samples/host/shot.h"
 
 namespace support {

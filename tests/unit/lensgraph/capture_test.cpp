@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/error.h"
-#include "samples/lensgraph/capture_diff.h"
-#include "samples/lensgraph/capture_page.h"
-#include "samples/lensgraph/capture_reader.h"
+#include "samples/lensgraph/capture/capture_diff.h"
+#include "samples/lensgraph/capture/capture_reader.h"
+#include "samples/lensgraph/pages/capture_page.h"
 
 namespace {
 

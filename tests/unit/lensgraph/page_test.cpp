@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "samples/lensgraph/demo_page.h"
 #include "samples/lensgraph/error_map.h"
-#include "samples/lensgraph/page_template.h"
+#include "samples/lensgraph/pages/demo_page.h"
+#include "samples/lensgraph/pages/page_template.h"
 
 namespace {
 

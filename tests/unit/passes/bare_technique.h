@@ -3,7 +3,7 @@
 
 #include <vulkan/vulkan_core.h>
 
-#include "passes/registry.h"
+#include "passes/registry/registry.h"
 #include "rendergraph/graph.h"
 
 struct BareOptions {

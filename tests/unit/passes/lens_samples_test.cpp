@@ -1,5 +1,5 @@
 // Patterns and aperture shapes: uniform, of low discrepancy, inside the shape, the same every time.
-#include "passes/lens_samples.h"
+#include "passes/lens/lens_samples.h"
 
 #include <gtest/gtest.h>
 

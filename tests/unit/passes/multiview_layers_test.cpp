@@ -36,8 +36,7 @@ TEST(SceneLayers, OverlapByATenth) {
   for (const SceneLayer& layer : layers) {
     const float thickness = layer.borders.x - layer.borders.y;
     EXPECT_NEAR(layer.nearest - layer.borders.x, 0.1f * thickness, 1e-6f);
-    EXPECT_NEAR(layer.borders.y - layer.farthest, layer.farthest > 0.0f ? 0.1f * thickness : layer.borders.y,
-                1e-6f);
+    EXPECT_NEAR(layer.borders.y - layer.farthest, layer.farthest > 0.0f ? 0.1f * thickness : layer.borders.y, 1e-6f);
     EXPECT_GE(layer.farthest, 0.0f);
   }
 }
@@ -76,8 +75,8 @@ TEST(SceneLayers, NeverMoreThanAllowedAndEverythingStaysCovered) {
     for (const auto& interval : occupied) {
       for (const float t : {0.0f, 0.31f, 1.0f}) {
         const float at = interval.farthest + t * (interval.nearest - interval.farthest);
-        ASSERT_TRUE(std::ranges::any_of(
-            layers, [&](const SceneLayer& l) { return at <= l.borders.x && at >= l.borders.y; }))
+        ASSERT_TRUE(
+            std::ranges::any_of(layers, [&](const SceneLayer& l) { return at <= l.borders.x && at >= l.borders.y; }))
             << "round " << round << " vergence " << at;
       }
     }

@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "bare_technique.h"
-#include "passes/registry.h"
+#include "passes/registry/registry.h"
 #include "rendergraph/compiler.h"
 #include "rendergraph/dump.h"
 

@@ -1,5 +1,5 @@
 // Environment maps: constant light, a single direction, broken texels, mips.
-#include "engine/environment.h"
+#include "engine/draw/environment.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "engine/scene_gltf.h"
+#include "engine/gltf/load_gltf.h"
 #include "gltf_builder.h"
 
 namespace {

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "engine/error.h"
-#include "engine/scene_gltf.h"
+#include "engine/gltf/load_gltf.h"
 #include "gltf_builder.h"
 
 namespace {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/error.h"
-#include "engine/scene_gltf.h"
+#include "engine/gltf/load_gltf.h"
 #include "gltf_builder.h"
 #include "raw_png.h"
 

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/error.h"
-#include "engine/scene_gltf.h"
+#include "engine/gltf/load_gltf.h"
 #include "gltf_builder.h"
 
 namespace {

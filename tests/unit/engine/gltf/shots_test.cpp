@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
-#include "engine/image_io.h"
-#include "engine/metrics.h"
-#include "engine/scene_gltf.h"
+#include "engine/gltf/load_gltf.h"
+#include "engine/image/image_io.h"
+#include "engine/image/metrics.h"
 #include "temporary_folder.h"
 
 namespace {

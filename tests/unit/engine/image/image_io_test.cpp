@@ -1,5 +1,5 @@
 // Image files: what is written is what is read, what is read is linear, and failures leave nothing behind.
-#include "engine/image_io.h"
+#include "engine/image/image_io.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "engine/error.h"
-#include "engine/metrics.h"
+#include "engine/image/metrics.h"
 #include "raw_png.h"
 #include "temporary_folder.h"
 

@@ -1,5 +1,5 @@
 // Metrics against closed forms and against a second, direct implementation of the published formulas.
-#include "engine/metrics.h"
+#include "engine/image/metrics.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The camera's matrices against points whose place in the picture is known.
-#include "engine/camera.h"
+#include "engine/scene/camera.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // The depth range of what a camera sees, on scenes whose answer is known.
-#include "engine/visible_range.h"
+#include "engine/scene/visible_range.h"
 
 #include <gtest/gtest.h>
 

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <bit>
 
-#include "plan_checker.h"
+#include "plan_checker/plan_checker.h"
 #include "rendergraph/compiler.h"
-#include "rendergraph/declaration.h"
+#include "rendergraph/declare/declaration.h"
 #include "rendergraph/graph.h"
-#include "test_device.h"
+#include "support/test_device.h"
 
 using namespace rendergraph;
 

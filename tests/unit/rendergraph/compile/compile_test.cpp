@@ -5,10 +5,10 @@
 #include <functional>
 #include <map>
 
-#include "random_graph.h"
 #include "rendergraph/compiler.h"
-#include "rendergraph/declaration.h"
+#include "rendergraph/declare/declaration.h"
 #include "rendergraph/graph.h"
+#include "support/random_graph.h"
 
 using namespace rendergraph;
 using testing::ElementsAre;

@@ -1,5 +1,5 @@
 // Orders: valid, and as good in bytes or batches as their policy says.
-#include "rendergraph/ordering.h"
+#include "rendergraph/compile/schedule/ordering.h"
 
 #include <gtest/gtest.h>
 
@@ -7,15 +7,15 @@
 #include <limits>
 #include <map>
 
-#include "batch_count.h"
-#include "corpus.h"
-#include "random_graph.h"
-#include "rendergraph/cells.h"
+#include "rendergraph/compile/flow/cells.h"
+#include "rendergraph/compile/flow/dependencies.h"
+#include "rendergraph/compile/schedule/live_bytes.h"
 #include "rendergraph/compiler.h"
-#include "rendergraph/declaration.h"
-#include "rendergraph/dependencies.h"
+#include "rendergraph/declare/declaration.h"
 #include "rendergraph/graph.h"
-#include "rendergraph/live_bytes.h"
+#include "support/batch_count.h"
+#include "support/corpus.h"
+#include "support/random_graph.h"
 
 using namespace rendergraph;
 

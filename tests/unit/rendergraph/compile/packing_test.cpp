@@ -1,16 +1,16 @@
 // Packing: nothing alive overlaps, and the waste against the lower bound on a corpus of typical texture sizes.
-#include "rendergraph/aliasing.h"
+#include "rendergraph/compile/memory/packing.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
-#include "corpus.h"
-#include "random_graph.h"
 #include "rendergraph/compiler.h"
-#include "rendergraph/declaration.h"
+#include "rendergraph/declare/declaration.h"
 #include "rendergraph/graph.h"
+#include "support/corpus.h"
+#include "support/random_graph.h"
 
 using namespace rendergraph;
 

@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 
 #include "rendergraph/compiler.h"
-#include "rendergraph/declaration.h"
+#include "rendergraph/declare/declaration.h"
 #include "rendergraph/error.h"
 #include "rendergraph/graph.h"
 #include "rendergraph/memory_notes.h"
-#include "test_device.h"
+#include "support/test_device.h"
 
 using namespace rendergraph;
 using testing::HasSubstr;

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <iostream>
 
-#include "plan_checker.h"
-#include "random_graph.h"
+#include "plan_checker/plan_checker.h"
 #include "rendergraph/compiler.h"
-#include "rendergraph/declaration.h"
-#include "test_device.h"
+#include "rendergraph/declare/declaration.h"
+#include "support/random_graph.h"
+#include "support/test_device.h"
 
 using namespace rendergraph;
 

@@ -5,12 +5,12 @@
 
 #include <iostream>
 
-#include "plan_checker.h"
-#include "random_graph.h"
+#include "plan_checker/plan_checker.h"
+#include "plan_checker/usage_model.h"
 #include "rendergraph/compiler.h"
-#include "rendergraph/declaration.h"
-#include "test_device.h"
-#include "usage_model.h"
+#include "rendergraph/declare/declaration.h"
+#include "support/random_graph.h"
+#include "support/test_device.h"
 
 using namespace rendergraph;
 

@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "rendergraph/compiler.h"
-#include "rendergraph/declaration.h"
+#include "rendergraph/declare/declaration.h"
 #include "rendergraph/graph.h"
 
 using namespace rendergraph;

@@ -4,8 +4,8 @@
 
 #include <functional>
 
-#include "fake_backend.h"
 #include "rendergraph/executor.h"
+#include "support/fake_backend.h"
 
 using namespace rendergraph;
 using testing::HasSubstr;

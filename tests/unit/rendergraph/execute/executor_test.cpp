@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "executor_support.h"
+#include "support/executor_support.h"
 
 using namespace executor_test;
 using namespace rendergraph;

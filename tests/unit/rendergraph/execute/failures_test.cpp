@@ -1,5 +1,5 @@
 // Failures at every call that can fail: an error in words, nothing lost, and the executor goes on.
-#include "executor_support.h"
+#include "support/executor_support.h"
 
 using namespace rendergraph;
 using namespace executor_test;

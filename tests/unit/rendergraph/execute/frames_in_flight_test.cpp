@@ -1,7 +1,7 @@
 // Several frames before the device: what waits, what is shared, what lives how long.
 #include <set>
 
-#include "executor_support.h"
+#include "support/executor_support.h"
 
 using namespace rendergraph;
 using namespace executor_test;

@@ -1,8 +1,8 @@
 // Plans made by hand, with everything that rendergraph/plan.h can say, and what becomes of them on a backend that knows
 // in which order submissions, events and renderings are legal.
-#include "executor_support.h"
-#include "rendergraph/executor_state.h"
-#include "rendergraph/frame.h"
+#include "rendergraph/execute/frame/executor_state.h"
+#include "rendergraph/execute/frame/frame_runner.h"
+#include "support/executor_support.h"
 
 using namespace rendergraph;
 using namespace executor_test;

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "executor_support.h"
+#include "support/executor_support.h"
 
 using namespace rendergraph;
 using namespace executor_test;

@@ -3,7 +3,7 @@
 #include <new>
 
 #include "allocation_count.h"
-#include "executor_support.h"
+#include "support/executor_support.h"
 
 using namespace rendergraph;
 using namespace executor_test;

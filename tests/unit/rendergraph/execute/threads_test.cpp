@@ -5,11 +5,11 @@
 #include <thread>
 #include <vector>
 
-#include "fake_backend.h"
-#include "random_graph.h"
 #include "rendergraph/compiler.h"
 #include "rendergraph/executor.h"
 #include "rendergraph/graph.h"
+#include "support/fake_backend.h"
+#include "support/random_graph.h"
 
 using namespace rendergraph;
 

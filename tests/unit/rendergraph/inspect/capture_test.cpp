@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "fake_backend.h"
 #include "rendergraph/capture_series.h"
 #include "rendergraph/executor.h"
+#include "support/fake_backend.h"
 
 using namespace rendergraph;
 using nlohmann::json;

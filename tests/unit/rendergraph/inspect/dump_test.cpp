@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "rendergraph/compiler.h"
-#include "rendergraph/declaration.h"
+#include "rendergraph/declare/declaration.h"
 #include "rendergraph/graph.h"
 
 using namespace rendergraph;

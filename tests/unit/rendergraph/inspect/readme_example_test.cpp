@@ -5,7 +5,7 @@
 #include <iterator>
 #include <string>
 
-#include "fake_backend.h"
+#include "support/fake_backend.h"
 
 // clang-format off
 // [example]

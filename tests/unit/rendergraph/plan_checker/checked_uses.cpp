@@ -1,7 +1,7 @@
 // What the declaration and the plan do to one resource, in order: uses, attachment operations, barriers.
 #include <algorithm>
 
-#include "resource_replay.h"
+#include "plan_checker/resource_replay.h"
 
 namespace plan_checker {
 

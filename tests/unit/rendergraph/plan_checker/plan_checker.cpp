@@ -1,5 +1,5 @@
 // Judges plans by replaying them, whole and weakened; see the header for the model.
-#include "plan_checker.h"
+#include "plan_checker/plan_checker.h"
 
 #include <algorithm>
 #include <bit>
@@ -7,8 +7,8 @@
 #include <sstream>
 #include <utility>
 
-#include "plan_replay.h"
-#include "plan_structure.h"
+#include "plan_checker/plan_replay.h"
+#include "plan_checker/plan_structure.h"
 
 namespace plan_checker {
 

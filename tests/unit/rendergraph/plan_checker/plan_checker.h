@@ -49,7 +49,7 @@
 #include <vector>
 
 #include "rendergraph/compiler.h"
-#include "rendergraph/declaration.h"
+#include "rendergraph/declare/declaration.h"
 #include "rendergraph/plan.h"
 
 namespace plan_checker {

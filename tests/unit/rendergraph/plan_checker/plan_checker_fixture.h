@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "plan_checker.h"
-#include "plan_maker.h"
-#include "rendergraph/declaration.h"
-#include "test_device.h"
+#include "plan_checker/plan_checker.h"
+#include "plan_checker/plan_maker.h"
+#include "rendergraph/declare/declaration.h"
+#include "support/test_device.h"
 
 namespace plan_checker_test {
 

@@ -1,5 +1,5 @@
 // The plan checker on plans for several queues, written by hand.
-#include "plan_checker_fixture.h"
+#include "plan_checker/plan_checker_fixture.h"
 
 using namespace plan_checker_test;
 

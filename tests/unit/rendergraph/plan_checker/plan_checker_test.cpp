@@ -1,5 +1,5 @@
 // The plan checker itself, on plans for one queue written by hand: right ones pass, and each fault in them is found.
-#include "plan_checker_fixture.h"
+#include "plan_checker/plan_checker_fixture.h"
 
 using namespace plan_checker_test;
 

@@ -1,9 +1,9 @@
 // See the header.
-#include "plan_maker.h"
+#include "plan_checker/plan_maker.h"
 
 #include <algorithm>
 
-#include "rendergraph/declaration.h"
+#include "rendergraph/declare/declaration.h"
 
 using namespace rendergraph;
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <string>
 
-#include "plan_structure.h"
+#include "plan_checker/plan_structure.h"
 
 namespace plan_checker {
 

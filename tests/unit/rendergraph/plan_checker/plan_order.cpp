@@ -1,5 +1,5 @@
 // Keys and reach of submissions; see the header.
-#include "plan_order.h"
+#include "plan_checker/plan_order.h"
 
 #include <array>
 

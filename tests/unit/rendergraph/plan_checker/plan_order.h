@@ -12,9 +12,9 @@
 #include <span>
 #include <vector>
 
-#include "rendergraph/declaration.h"
+#include "plan_checker/usage_model.h"
+#include "rendergraph/declare/declaration.h"
 #include "rendergraph/plan.h"
-#include "usage_model.h"
 
 namespace plan_checker {
 

@@ -1,5 +1,5 @@
 // See the header.
-#include "plan_replay.h"
+#include "plan_checker/plan_replay.h"
 
 #include <algorithm>
 

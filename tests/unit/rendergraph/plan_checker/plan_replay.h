@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "plan_checker.h"
-#include "plan_order.h"
-#include "resource_replay.h"
+#include "plan_checker/plan_checker.h"
+#include "plan_checker/plan_order.h"
+#include "plan_checker/resource_replay.h"
 
 namespace plan_checker {
 

@@ -1,11 +1,11 @@
 // See the header.
-#include "plan_structure.h"
+#include "plan_checker/plan_structure.h"
 
 #include <algorithm>
 #include <string>
 
-#include "plan_order.h"
-#include "usage_model.h"
+#include "plan_checker/plan_order.h"
+#include "plan_checker/usage_model.h"
 
 namespace plan_checker {
 

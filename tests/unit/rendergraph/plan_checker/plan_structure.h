@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "plan_checker.h"
+#include "plan_checker/plan_checker.h"
 
 namespace plan_checker {
 

@@ -1,5 +1,5 @@
 // The life of one resource under a plan, moment by moment; see plan_checker.h for the model.
-#include "resource_replay.h"
+#include "plan_checker/resource_replay.h"
 
 #include <algorithm>
 

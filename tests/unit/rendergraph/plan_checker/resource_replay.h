@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "plan_checker.h"
-#include "plan_order.h"
-#include "usage_model.h"
+#include "plan_checker/plan_checker.h"
+#include "plan_checker/plan_order.h"
+#include "plan_checker/usage_model.h"
 
 namespace plan_checker {
 

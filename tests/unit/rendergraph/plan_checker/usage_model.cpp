@@ -1,5 +1,5 @@
 // The checker's own table of usages.
-#include "usage_model.h"
+#include "plan_checker/usage_model.h"
 
 namespace plan_checker {
 

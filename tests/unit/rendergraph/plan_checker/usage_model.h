@@ -8,7 +8,7 @@
 #include <cstdint>
 
 #include "rendergraph/compiler.h"
-#include "rendergraph/declaration.h"
+#include "rendergraph/declare/declaration.h"
 
 namespace plan_checker {
 

@@ -1,4 +1,4 @@
-#include "batch_count.h"
+#include "support/batch_count.h"
 
 #include <algorithm>
 #include <utility>

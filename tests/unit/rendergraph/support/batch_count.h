@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "rendergraph/declaration.h"
+#include "rendergraph/declare/declaration.h"
 #include "rendergraph/plan.h"
 
 /// Minimum over all placements of the barriers of this plan's order and memory: each may stand anywhere between the

@@ -1,4 +1,4 @@
-#include "executor_support.h"
+#include "support/executor_support.h"
 
 namespace executor_test {
 

@@ -6,8 +6,8 @@
 
 #include <functional>
 
-#include "fake_backend.h"
 #include "rendergraph/executor.h"
+#include "support/fake_backend.h"
 
 namespace executor_test {
 

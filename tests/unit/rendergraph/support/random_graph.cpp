@@ -1,4 +1,4 @@
-#include "random_graph.h"
+#include "support/random_graph.h"
 
 #include <array>
 #include <random>

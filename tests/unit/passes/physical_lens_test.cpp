@@ -1,7 +1,5 @@
 // A physical lens against the thin-lens formulas in long double, over the extremes that pictures are asked
 // for.
-#include "engine/lens.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,6 +7,8 @@
 #include <limits>
 #include <numbers>
 #include <random>
+
+#include "passes/lens/physical_lens.h"
 
 namespace {
 
