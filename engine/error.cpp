@@ -3,7 +3,7 @@
 
 #include <utility>
 
-namespace engine {
+namespace lensgraph::engine {
 namespace {
 
 // File names and library messages may hold line breaks; an error stays one line.
@@ -32,4 +32,4 @@ Error::Error(ErrorParts parts, ErrorKind kind)
 Error::Error(const std::string& reason, ErrorKind kind)
     : Error(ErrorParts{.file = {}, .field = {}, .reason = reason, .remedy = {}}, kind) {}
 
-}  // namespace engine
+}  // namespace lensgraph::engine

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace engine {
+namespace lensgraph::engine {
 
 /// Who can mend it. The command line turns it into an exit code.
 enum class ErrorKind {
@@ -34,4 +34,4 @@ class Error : public std::runtime_error {
   ErrorKind kind_;
 };
 
-}  // namespace engine
+}  // namespace lensgraph::engine

@@ -11,7 +11,7 @@
 #include "shaders/shared/aperture.h"
 #include "shaders/shared/lens.h"
 
-namespace passes {
+namespace lensgraph::passes {
 
 /// The projection without its lens.
 struct Projection {
@@ -49,4 +49,4 @@ struct DofOutputs {
   rendergraph::Buffer statistics;
 };
 
-}  // namespace passes
+}  // namespace lensgraph::passes

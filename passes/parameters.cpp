@@ -7,7 +7,7 @@
 #include <cmath>
 #include <system_error>
 
-namespace passes {
+namespace lensgraph::passes {
 namespace {
 
 std::string quoted(std::string_view text) {
@@ -197,4 +197,4 @@ std::string toString(const ParameterValue& value) {
   return error == std::errc{} ? std::string(digits.data(), end) : std::string("?");
 }
 
-}  // namespace passes
+}  // namespace lensgraph::passes

@@ -14,7 +14,7 @@
 #include <variant>
 #include <vector>
 
-namespace passes {
+namespace lensgraph::passes {
 
 using ParameterValue = std::variant<bool, int64_t, double, std::string>;
 
@@ -147,4 +147,4 @@ Parameters fromSet(const ParameterSet& set, std::span<const Field<Parameters>> f
   return parameters;
 }
 
-}  // namespace passes
+}  // namespace lensgraph::passes

@@ -14,7 +14,7 @@
 #include "shaders/shared/emit.h"
 #include "shaders/shared/view.h"
 
-namespace passes {
+namespace lensgraph::passes {
 
 struct SceneDrawCall {
   shared::SceneEmit emit = shared::SceneEmit::opaqueRadiance;
@@ -62,4 +62,4 @@ struct SceneDraw {
   float listFragmentsPerPixel = 4.0f;
 };
 
-}  // namespace passes
+}  // namespace lensgraph::passes

@@ -8,7 +8,7 @@
 
 #include "passes/registry/registry.h"
 
-namespace passes {
+namespace lensgraph::passes {
 
 namespace detail {
 template <class Parameters>
@@ -39,4 +39,4 @@ Technique makeTechnique(const TechniqueTitle& title, TechniqueInput input) {
           }};
 }
 
-}  // namespace passes
+}  // namespace lensgraph::passes

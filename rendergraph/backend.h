@@ -20,7 +20,7 @@
 #include "rendergraph/program.h"
 #include "rendergraph/resource.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 /// A memory block of the backend; 0 is none.
 using HeapId = uint64_t;
@@ -175,4 +175,4 @@ class Backend : public DeviceFacts {
   virtual void readTimestamps(VkQueryPool pool, uint32_t first, std::span<uint64_t> ticks) = 0;
 };
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

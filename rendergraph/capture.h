@@ -15,7 +15,7 @@
 #include "rendergraph/pass.h"
 #include "rendergraph/plan.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 /// One access that a pass declared.
 struct CapturedUse {
@@ -101,4 +101,4 @@ std::vector<CapturedEdge> edgesOf(const Capture& capture);
 /// Bytes of the graph's heaps that hold something needed during a step; step passes.size() is after the last pass.
 VkDeviceSize bytesAlive(const Capture& capture, uint32_t step);
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -7,7 +7,7 @@
 
 #include "rendergraph/capture.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 /// Of one time over the frames, ms; all negative when it was not measured.
 struct Spread {
@@ -54,4 +54,4 @@ void writeJson(std::ostream& out, const CaptureSeries& series);
 /// A series of this one frame.
 void writeJson(std::ostream& out, const Capture& capture);
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 /// Command buffers of a backend and the transient objects (descriptor sets) that their commands need; 0 is none.
 using RecorderId = uint64_t;
@@ -15,4 +15,4 @@ struct CommandStream {
   RecorderId recorder = 0;  ///< Where the transient objects of these commands live. One thread uses it at a time.
 };
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -7,7 +7,7 @@
 #include "rendergraph/plan.h"
 #include "rendergraph/resource.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 struct Declaration;
 
@@ -98,4 +98,4 @@ Plan compile(const Declaration& declaration, const CompileOptions& options, cons
 /// the imported Vulkan objects).
 uint64_t structuralHash(const Declaration& declaration, const CompileOptions& options);
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -5,7 +5,7 @@
 
 #include "rendergraph/plan.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 class Graph;
 
@@ -14,4 +14,4 @@ void writeJson(std::ostream& out, const Graph& graph, const Plan& plan);
 /// One line a pass with reads, writes and barriers; deterministic, for snapshots.
 void writeText(std::ostream& out, const Graph& graph, const Plan& plan);
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 /// What was done wrong. One name for each kind of misuse, so that hosts and tests can tell them apart.
 enum class Misuse {
@@ -55,4 +55,4 @@ class GraphError : public std::runtime_error {
 
 std::string_view nameOf(Misuse misuse);
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -24,7 +24,7 @@
 #include "rendergraph/jobs.h"
 #include "rendergraph/plan.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 struct ExecutorState;
 
@@ -126,4 +126,4 @@ class Executor {
   std::unique_ptr<ExecutorState> state_;
 };
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

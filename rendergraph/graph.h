@@ -26,7 +26,7 @@
 #include "rendergraph/pass.h"
 #include "rendergraph/resource.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 struct Declaration;  // declaration.h: the plain data that compile() reads.
 class ImageTaps;     // image_tap.h
@@ -110,4 +110,4 @@ void Pass::record(Recording recording) {
                                                   : +[](void* self) { static_cast<Recording*>(self)->~Recording(); });
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

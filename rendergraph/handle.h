@@ -8,7 +8,7 @@
 
 #include <cstdint>
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 template <class Tag>
 struct Handle {
@@ -24,4 +24,4 @@ struct Handle {
 using Image = Handle<struct ImageTag>;
 using Buffer = Handle<struct BufferTag>;
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

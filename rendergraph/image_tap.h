@@ -22,7 +22,7 @@
 #include "rendergraph/handle.h"
 #include "rendergraph/resource.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 class Graph;
 
@@ -84,4 +84,4 @@ class ImageTaps {
 /// several accesses is told once.
 std::vector<TapChoice> tappableImages(const Graph& graph);
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

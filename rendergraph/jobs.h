@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <memory>
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 /// A job to be called with each number from 0 to count - 1, once. A light reference: valid during Jobs::run().
 struct Job {
@@ -43,4 +43,4 @@ class ThreadPool final : public Jobs {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -6,11 +6,11 @@
 
 #include "rendergraph/plan.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 struct Declaration;
 
 /// One sentence for each resource of the declaration that the plan belongs to.
 std::vector<std::string> memoryNotes(const Declaration& declaration, const Plan& plan);
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

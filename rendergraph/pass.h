@@ -15,7 +15,7 @@
 #include "rendergraph/program.h"
 #include "rendergraph/resource.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 class Graph;
 class StepRecorder;
@@ -150,4 +150,4 @@ class Pass {
   uint32_t index_;
 };
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -25,7 +25,7 @@
 
 #include "rendergraph/resource.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 /// A use of a resource that a barrier waits for, or that waits for it.
 struct AccessPoint {
@@ -230,4 +230,4 @@ struct Plan {
   }
 };
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -15,7 +15,7 @@
 #include "rendergraph/handle.h"
 #include "rendergraph/resource.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 using SpirV = std::span<const uint32_t>;
 
@@ -123,4 +123,4 @@ struct Draw {
   uint32_t instanceCount = 1;
 };
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 /// A range of mips and layers. The default names the whole image.
 struct Subresources {
@@ -112,4 +112,4 @@ bool overlap(const Subresources& a, const Subresources& b);
 /// Whether every subresource of `inner` lies in `outer`; both resolved.
 bool contains(const Subresources& outer, const Subresources& inner);
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -7,7 +7,7 @@
 
 #include "rendergraph/capture.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 /// Writes the frames one after the other, each beginning where the one before ended on the host's clock. That is how
 /// execute() runs them. Frames in flight of submit() overlap in truth, and a capture does not say when its frame began:
@@ -18,4 +18,4 @@ namespace rendergraph {
 /// `process`: what the tracks are grouped under, such as the program and its device.
 void writeTrace(std::ostream& out, std::span<const Capture> frames, std::string_view process);
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

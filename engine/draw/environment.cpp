@@ -10,7 +10,7 @@
 
 #include "engine/error.h"
 
-namespace engine {
+namespace lensgraph::engine {
 namespace {
 
 constexpr float kLargestHalf = 65504.0f;
@@ -100,4 +100,4 @@ Environment prepareEnvironment(const FloatImage& map) {
   return environment;
 }
 
-}  // namespace engine
+}  // namespace lensgraph::engine

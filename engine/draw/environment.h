@@ -9,7 +9,7 @@
 #include "engine/image/image.h"
 #include "rendergraph/resource.h"
 
-namespace engine {
+namespace lensgraph::engine {
 
 struct Environment {
   rendergraph::ImageDesc desc;    ///< RGBA16F with a full mip chain.
@@ -23,4 +23,4 @@ struct Environment {
 /// are not finite count as 0. Throws Error when the picture has no pixels or no colour.
 Environment prepareEnvironment(const FloatImage& map);
 
-}  // namespace engine
+}  // namespace lensgraph::engine

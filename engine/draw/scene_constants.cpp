@@ -7,7 +7,7 @@
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/matrix.hpp>
 
-namespace engine {
+namespace lensgraph::engine {
 namespace {
 
 shared::vec4 toShared(const glm::dvec3& v, double w) {
@@ -53,4 +53,4 @@ void fillViewpoint(shared::SceneConstants& constants, const SceneViewpoint& view
   for (int i = 0; i < 3; ++i) constants.worldFromViewRows[i] = toShared(viewFromWorld[i], 0.0);
 }
 
-}  // namespace engine
+}  // namespace lensgraph::engine

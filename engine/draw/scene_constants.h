@@ -5,7 +5,7 @@
 #include "engine/draw/scene_renderer.h"
 #include "shaders/shared/scene.h"
 
-namespace engine {
+namespace lensgraph::engine {
 
 /// Matrices are multiplied in double and rounded once.
 shared::DrawConstants drawConstantsOf(const SceneViewpoint& viewpoint, const SceneDrawItem& item);
@@ -13,4 +13,4 @@ shared::LightConstants lightConstantsOf(const SceneViewpoint& viewpoint, const L
 /// Fills the viewpoint's part: its rotation.
 void fillViewpoint(shared::SceneConstants& constants, const SceneViewpoint& viewpoint);
 
-}  // namespace engine
+}  // namespace lensgraph::engine

@@ -8,7 +8,7 @@
 #include "engine/vulkan/command_buffers.h"
 #include "shaders/shared/scene.h"
 
-namespace engine {
+namespace lensgraph::engine {
 namespace {
 
 SceneVertex vertexOf(const Primitive& primitive, std::size_t i) {
@@ -202,4 +202,4 @@ void SceneGpu::makeMaterialSets(PipelineStore& pipelines, const Scene& scene) {
   }
 }
 
-}  // namespace engine
+}  // namespace lensgraph::engine

@@ -9,7 +9,7 @@
 #include "engine/vulkan/memory.h"
 #include "engine/vulkan/pipelines.h"
 
-namespace engine {
+namespace lensgraph::engine {
 
 /// Vertex layout: position, normal, uv 0, uv 1, colour; 56 bytes, interleaved.
 struct SceneVertex {
@@ -60,4 +60,4 @@ class SceneGpu {
   bool hasTransparency_ = false;
 };
 
-}  // namespace engine
+}  // namespace lensgraph::engine

@@ -17,7 +17,7 @@
 #include "spirv/scene/scene_vert.h"
 #include "spirv/scene/transparent_list_frag.h"
 
-namespace engine {
+namespace lensgraph::engine {
 namespace {
 
 using rendergraph::MemoryKind;
@@ -295,4 +295,4 @@ void SceneRenderer::draw(const rendergraph::CommandStream& stream, const SceneDr
   }
 }
 
-}  // namespace engine
+}  // namespace lensgraph::engine

@@ -19,7 +19,7 @@
 #include "shaders/shared/scene.h"
 #include "shaders/shared/view.h"
 
-namespace engine {
+namespace lensgraph::engine {
 
 /// What of a view does not depend on the lens point.
 struct SceneViewpoint {
@@ -79,4 +79,4 @@ class SceneRenderer {
   std::vector<std::unique_ptr<EmitPipeline>> pipelines_;
 };
 
-}  // namespace engine
+}  // namespace lensgraph::engine

@@ -7,7 +7,7 @@
 
 #include "engine/gltf/internal.h"
 
-namespace engine::gltf {
+namespace lensgraph::engine::gltf {
 namespace {
 
 // An accessor without a buffer view is all zeros, so a tiny file can claim any size: more than this is no
@@ -237,4 +237,4 @@ std::vector<uint32_t> readUnsigned(const Document& document, int accessorIndex, 
   return values;
 }
 
-}  // namespace engine::gltf
+}  // namespace lensgraph::engine::gltf

@@ -11,7 +11,7 @@
 
 #include "engine/error.h"
 
-namespace engine::gltf {
+namespace lensgraph::engine::gltf {
 namespace {
 
 using Json = nlohmann::json;
@@ -331,4 +331,4 @@ void checkStructure(Json& root, const std::string& file) {
   }
 }
 
-}  // namespace engine::gltf
+}  // namespace lensgraph::engine::gltf

@@ -4,11 +4,11 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-namespace engine::gltf {
+namespace lensgraph::engine::gltf {
 
 /// Throws Error naming the field for the first member of a wrong type, missing, of a wrong length, or an
 /// index out of range of the array that it points into. Whole numbers written as 3.0 become integers. Knows
 /// the members that scene_gltf uses; others are not looked at.
 void checkStructure(nlohmann::json& root, const std::string& file);
 
-}  // namespace engine::gltf
+}  // namespace lensgraph::engine::gltf

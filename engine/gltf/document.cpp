@@ -16,7 +16,7 @@
 #include "engine/gltf/check.h"
 #include "engine/gltf/internal.h"
 
-namespace engine::gltf {
+namespace lensgraph::engine::gltf {
 namespace {
 
 namespace fs = std::filesystem;
@@ -314,4 +314,4 @@ Document readDocument(const fs::path& path) {
   return document;
 }
 
-}  // namespace engine::gltf
+}  // namespace lensgraph::engine::gltf

@@ -14,7 +14,7 @@
 
 #include "engine/scene/scene.h"
 
-namespace engine::gltf {
+namespace lensgraph::engine::gltf {
 
 /// A parsed file. Every index in the model has been checked against the array that it points into, every
 /// member's type and length against the specification; byte ranges have not: they are checked where bytes are
@@ -104,4 +104,4 @@ std::optional<Primitive> buildPrimitive(Document& document, size_t mesh, size_t 
 void applyRestPose(Document& document, size_t mesh, size_t primitive, int skin,
                    const std::vector<glm::dmat4>& fileFromNode, Primitive& target);
 
-}  // namespace engine::gltf
+}  // namespace lensgraph::engine::gltf

@@ -10,7 +10,7 @@
 #include "engine/error.h"
 #include "engine/gltf/internal.h"
 
-namespace engine {
+namespace lensgraph::engine {
 namespace {
 
 using gltf::at;
@@ -295,4 +295,4 @@ std::vector<std::string> appendGltf(Scene& scene, const std::filesystem::path& p
   }
 }
 
-}  // namespace engine
+}  // namespace lensgraph::engine

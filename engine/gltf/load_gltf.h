@@ -18,7 +18,7 @@
 
 #include "engine/scene/scene.h"
 
-namespace engine {
+namespace lensgraph::engine {
 
 /// Where a file stands in the world: worldFromFile = T · R · S, as a glTF node's.
 struct Placement {
@@ -43,4 +43,4 @@ struct GltfOptions {
 std::vector<std::string> appendGltf(Scene& scene, const std::filesystem::path& path,
                                     const glm::dmat4& worldFromFile = glm::dmat4(1.0), const GltfOptions& options = {});
 
-}  // namespace engine
+}  // namespace lensgraph::engine

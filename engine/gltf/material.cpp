@@ -6,7 +6,7 @@
 
 #include "engine/gltf/internal.h"
 
-namespace engine::gltf {
+namespace lensgraph::engine::gltf {
 namespace {
 
 Wrap wrapOf(const Document& document, int value, const std::string& field) {
@@ -256,4 +256,4 @@ uint32_t MaterialBuilder::imageIndex(int image, ColorEncoding encoding) {
   return index;
 }
 
-}  // namespace engine::gltf
+}  // namespace lensgraph::engine::gltf

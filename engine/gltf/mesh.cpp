@@ -5,7 +5,7 @@
 
 #include "engine/gltf/internal.h"
 
-namespace engine::gltf {
+namespace lensgraph::engine::gltf {
 namespace {
 
 // Types that glTF 2.0 and KHR_mesh_quantization allow. Colours are wider: plain integers are taken for
@@ -158,4 +158,4 @@ std::optional<Primitive> buildPrimitive(Document& document, size_t mesh, size_t 
   return result;
 }
 
-}  // namespace engine::gltf
+}  // namespace lensgraph::engine::gltf

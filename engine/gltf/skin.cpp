@@ -6,7 +6,7 @@
 
 #include "engine/gltf/internal.h"
 
-namespace engine::gltf {
+namespace lensgraph::engine::gltf {
 namespace {
 
 // fileFromVertex of each joint: where the joint is, times the inverse of where it was when the skin was
@@ -89,4 +89,4 @@ void applyRestPose(Document& document, size_t mesh, size_t primitive, int skin,
   }
 }
 
-}  // namespace engine::gltf
+}  // namespace lensgraph::engine::gltf

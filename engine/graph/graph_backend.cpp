@@ -7,7 +7,7 @@
 
 #include "engine/graph/graph_error.h"
 
-namespace engine {
+namespace lensgraph::engine {
 
 using rendergraph::MemoryRequirements;
 
@@ -223,4 +223,4 @@ void GraphBackend::destroyView(VkImageView view) {
   device_.vk().vkDestroyImageView(device_.handle(), view, nullptr);
 }
 
-}  // namespace engine
+}  // namespace lensgraph::engine

@@ -12,7 +12,7 @@
 #include "engine/vulkan/pipelines.h"
 #include "rendergraph/backend.h"
 
-namespace engine {
+namespace lensgraph::engine {
 
 struct GraphBackendOptions {
   /// Memory of their own also for resources for which the driver merely prefers it. Off: where it demands it only. The
@@ -158,4 +158,4 @@ class GraphBackend final : public rendergraph::Backend {
   std::vector<Unique<VkFence>> fences_;  ///< Unsignalled, to be used again.
 };
 
-}  // namespace engine
+}  // namespace lensgraph::engine

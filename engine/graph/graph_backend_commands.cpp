@@ -5,7 +5,7 @@
 #include "engine/graph/graph_backend.h"
 #include "engine/graph/graph_error.h"
 
-namespace engine {
+namespace lensgraph::engine {
 
 GraphBackend::CommandStream GraphBackend::beginCommands(RecorderId recorder) {
   return withGraphErrors({}, [&] {
@@ -155,4 +155,4 @@ void GraphBackend::clearDepthImage(const CommandStream& commands, VkImage image,
                                            &range);
 }
 
-}  // namespace engine
+}  // namespace lensgraph::engine

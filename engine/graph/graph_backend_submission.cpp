@@ -4,7 +4,7 @@
 #include "engine/graph/graph_backend.h"
 #include "engine/graph/graph_error.h"
 
-namespace engine {
+namespace lensgraph::engine {
 
 // ---- Recorders
 
@@ -147,4 +147,4 @@ void GraphBackend::readTimestamps(VkQueryPool pool, uint32_t first, std::span<ui
           "vkGetQueryPoolResults", "timestamps");
 }
 
-}  // namespace engine
+}  // namespace lensgraph::engine

@@ -1,7 +1,7 @@
 // Kinds of failure and what to do about them.
 #include "engine/graph/graph_error.h"
 
-namespace engine {
+namespace lensgraph::engine {
 namespace {
 
 using rendergraph::Misuse;
@@ -46,4 +46,4 @@ void rethrowAsGraphError(const Error& error, std::string_view resource) {
   raise(vulkan != nullptr ? misuseOf(vulkan->result()) : Misuse::device, error.what(), resource);
 }
 
-}  // namespace engine
+}  // namespace lensgraph::engine

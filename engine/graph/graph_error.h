@@ -7,7 +7,7 @@
 #include "engine/vulkan/vulkan_api.h"
 #include "rendergraph/error.h"
 
-namespace engine {
+namespace lensgraph::engine {
 
 /// Throws GraphError (outOfMemory, deviceLost, device) "what failed: VK_ERROR_…".
 [[noreturn]] void throwGraphError(VkResult result, std::string_view what, std::string_view resource);
@@ -30,4 +30,4 @@ decltype(auto) withGraphErrors(std::string_view resource, Work&& work) {
   }
 }
 
-}  // namespace engine
+}  // namespace lensgraph::engine

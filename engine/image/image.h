@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace engine {
+namespace lensgraph::engine {
 
 struct FloatImage {
   uint32_t width = 0;          ///< px
@@ -38,4 +38,4 @@ struct FloatImage {
   }
 };
 
-}  // namespace engine
+}  // namespace lensgraph::engine

@@ -24,7 +24,7 @@
 #include "engine/error.h"
 #include "engine/image/metrics.h"
 
-namespace engine {
+namespace lensgraph::engine {
 namespace {
 
 namespace fs = std::filesystem;
@@ -326,4 +326,4 @@ void writeImage(const fs::path& path, const FloatImage& image, const ImageWriteO
   }
 }
 
-}  // namespace engine
+}  // namespace lensgraph::engine

@@ -10,7 +10,7 @@
 
 #include "engine/image/image.h"
 
-namespace engine {
+namespace lensgraph::engine {
 
 /// Sample type of an EXR file. Half keeps 11 bits and ends at 65504; larger finite values become infinite in
 /// it.
@@ -39,4 +39,4 @@ FloatImage readDepth(const std::filesystem::path& path);
 /// or with 2 or 5+ channels.
 void writeImage(const std::filesystem::path& path, const FloatImage& image, const ImageWriteOptions& options = {});
 
-}  // namespace engine
+}  // namespace lensgraph::engine

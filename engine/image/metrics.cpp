@@ -10,7 +10,7 @@
 
 #include "engine/error.h"
 
-namespace engine {
+namespace lensgraph::engine {
 namespace {
 
 constexpr int kSsimRadius = 5;           // px: scikit-image's int(truncate 3.5 · sigma 1.5 + 0.5), an 11x11 window
@@ -235,4 +235,4 @@ Metrics compareImages(const FloatImage& image, const FloatImage& reference, cons
   return metrics;
 }
 
-}  // namespace engine
+}  // namespace lensgraph::engine

@@ -12,7 +12,7 @@
 
 #include "engine/image/image.h"
 
-namespace engine {
+namespace lensgraph::engine {
 
 struct MetricsOptions {
   double exposureEv = 0.0;           ///< Stops by which both pictures are brightened before they are displayed.
@@ -50,4 +50,4 @@ FloatImage ssimMap(const FloatImage& a, const FloatImage& b);
 float srgbFromLinear(float linear);
 float linearFromSrgb(float encoded);
 
-}  // namespace engine
+}  // namespace lensgraph::engine

@@ -9,7 +9,7 @@
 
 #include "engine/error.h"
 
-namespace engine {
+namespace lensgraph::engine {
 namespace {
 
 // Below this sine of the angle between axis and up, the roll of the camera is rounding noise.
@@ -105,4 +105,4 @@ double pixelsPerTangent(const Camera& camera, uint32_t imageHeight) {
   return imageHeight / (2.0 * std::tan(0.5 * camera.fovy));
 }
 
-}  // namespace engine
+}  // namespace lensgraph::engine

@@ -12,7 +12,7 @@
 
 #include "engine/scene/scene.h"
 
-namespace engine {
+namespace lensgraph::engine {
 
 inline constexpr double kDefaultNearPlane = 0.01;  ///< m. Below it reversed depth still has full float precision.
 
@@ -43,4 +43,4 @@ Camera cameraFromScene(const Scene& scene, std::string_view name);
 /// S = h / (2 tan(fovy/2)): pixels per unit of tangent, equal in x and y (square pixels).
 double pixelsPerTangent(const Camera& camera, uint32_t imageHeight);
 
-}  // namespace engine
+}  // namespace lensgraph::engine

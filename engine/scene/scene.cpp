@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-namespace engine {
+namespace lensgraph::engine {
 namespace {
 
 bool isFinite(const glm::vec3& v) {
@@ -180,4 +180,4 @@ void computeFlatNormals(Primitive& primitive) {
   primitive.indices = std::move(flat.indices);
 }
 
-}  // namespace engine
+}  // namespace lensgraph::engine

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace engine {
+namespace lensgraph::engine {
 
 inline constexpr uint32_t kNoIndex = std::numeric_limits<uint32_t>::max();
 
@@ -181,4 +181,4 @@ std::vector<std::string> findProblems(const Scene& scene);
 /// and tangents, which belong to the lost normals, are dropped. Degenerate triangles get +Z.
 void computeFlatNormals(Primitive& primitive);
 
-}  // namespace engine
+}  // namespace lensgraph::engine

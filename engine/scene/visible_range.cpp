@@ -11,7 +11,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
 
-namespace engine {
+namespace lensgraph::engine {
 namespace {
 
 constexpr std::size_t kMostSpans = 64;
@@ -143,4 +143,4 @@ VisibleRange visibleRange(const Scene& scene, const Camera& camera, uint32_t wid
   return range;
 }
 
-}  // namespace engine
+}  // namespace lensgraph::engine

@@ -6,7 +6,7 @@
 #include "engine/scene/camera.h"
 #include "engine/scene/scene.h"
 
-namespace engine {
+namespace lensgraph::engine {
 
 /// View depths from `nearest` to `farthest`, m.
 struct DepthSpan {
@@ -33,4 +33,4 @@ struct LensOpening {
 VisibleRange visibleRange(const Scene& scene, const Camera& camera, uint32_t width, uint32_t height,
                           const LensOpening& opening, double metersPerUnit);
 
-}  // namespace engine
+}  // namespace lensgraph::engine

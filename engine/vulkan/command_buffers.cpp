@@ -5,7 +5,7 @@
 #include <cstring>
 #include <vector>
 
-namespace engine {
+namespace lensgraph::engine {
 namespace {
 
 /// One image barrier over all mips and layers of a colour image.
@@ -132,4 +132,4 @@ void upload(const Device& device, const GpuImage& target, std::span<const std::b
   });
 }
 
-}  // namespace engine
+}  // namespace lensgraph::engine

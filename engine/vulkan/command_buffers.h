@@ -11,7 +11,7 @@
 #include "engine/vulkan/device.h"
 #include "engine/vulkan/memory.h"
 
-namespace engine {
+namespace lensgraph::engine {
 
 /// Command buffers for one queue (index in Device::queues()), used by one thread at a time and taken back together.
 class CommandPool {
@@ -41,4 +41,4 @@ void upload(const Device& device, const GpuBuffer& target, std::span<const std::
 /// SHADER_READ_ONLY_OPTIMAL. Done when it returns.
 void upload(const Device& device, const GpuImage& target, std::span<const std::byte> texels);
 
-}  // namespace engine
+}  // namespace lensgraph::engine

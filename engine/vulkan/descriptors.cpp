@@ -1,7 +1,7 @@
 // Pools of descriptor sets, and their content.
 #include "engine/vulkan/descriptors.h"
 
-namespace engine {
+namespace lensgraph::engine {
 
 void DescriptorRing::reset() {
   for (const auto& pool : pools_) {
@@ -68,4 +68,4 @@ void SetWriter::write(const Device& device, PipelineStore& pipelines, VkDescript
                                      nullptr);
 }
 
-}  // namespace engine
+}  // namespace lensgraph::engine

@@ -10,7 +10,7 @@
 #include "engine/vulkan/vulkan_api.h"
 #include "rendergraph/backend.h"
 
-namespace engine {
+namespace lensgraph::engine {
 
 /// Used by one thread at a time.
 class DescriptorRing {
@@ -42,4 +42,4 @@ class SetWriter {
   std::vector<VkWriteDescriptorSet> writes_;
 };
 
-}  // namespace engine
+}  // namespace lensgraph::engine

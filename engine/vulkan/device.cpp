@@ -9,7 +9,7 @@
 
 #include "engine/error.h"
 
-namespace engine {
+namespace lensgraph::engine {
 namespace {
 
 /// The feature structs, chained. Filled by the driver to see what there is, or by us to ask for it.
@@ -267,4 +267,4 @@ void Device::setName(VkObjectType type, uint64_t object, std::string_view name) 
   vkSetDebugUtilsObjectNameEXT(device_, &info);
 }
 
-}  // namespace engine
+}  // namespace lensgraph::engine

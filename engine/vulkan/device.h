@@ -10,7 +10,7 @@
 #include "engine/vulkan/vulkan_api.h"
 #include "engine/vulkan/vulkan_instance.h"
 
-namespace engine {
+namespace lensgraph::engine {
 
 struct DeviceOptions {
   /// Index in listDevices(), or part of a device's name (any case). Empty: the most capable usable device
@@ -82,4 +82,4 @@ class Device {
   VkPhysicalDeviceMemoryProperties memory_{};
 };
 
-}  // namespace engine
+}  // namespace lensgraph::engine

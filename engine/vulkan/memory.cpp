@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace engine {
+namespace lensgraph::engine {
 namespace {
 
 struct KindProperties {
@@ -118,4 +118,4 @@ GpuImage makeImage(const Device& device, const rendergraph::ImageDesc& desc, VkI
   return result;
 }
 
-}  // namespace engine
+}  // namespace lensgraph::engine

@@ -9,7 +9,7 @@
 #include "engine/vulkan/vulkan_api.h"
 #include "rendergraph/resource.h"
 
-namespace engine {
+namespace lensgraph::engine {
 
 /// One allocation of device memory. Host-visible kinds stay mapped.
 struct MemoryBlock {
@@ -45,4 +45,4 @@ GpuImage makeImage(const Device& device, const rendergraph::ImageDesc& desc, VkI
 VkImageCreateInfo imageCreateInfo(const rendergraph::ImageDesc& desc, VkImageUsageFlags usage);
 VkBufferCreateInfo bufferCreateInfo(VkDeviceSize size, VkBufferUsageFlags usage);
 
-}  // namespace engine
+}  // namespace lensgraph::engine

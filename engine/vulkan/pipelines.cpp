@@ -10,7 +10,7 @@
 
 #include "engine/vulkan/raster_pipeline.h"
 
-namespace engine {
+namespace lensgraph::engine {
 namespace {
 
 std::vector<char> readFile(const std::filesystem::path& path) {
@@ -249,4 +249,4 @@ VkSampler PipelineStore::sampler(const rendergraph::SamplerDesc& desc) {
   return sampler;
 }
 
-}  // namespace engine
+}  // namespace lensgraph::engine

@@ -14,7 +14,7 @@
 #include "engine/vulkan/vulkan_api.h"
 #include "rendergraph/program.h"
 
-namespace engine {
+namespace lensgraph::engine {
 
 /// The push constant range of every pipeline of the engine: the minimum that Vulkan guarantees, all stages.
 inline constexpr uint32_t kPushConstantBytes = 128;
@@ -78,4 +78,4 @@ Unique<VkShaderModule> makeShaderModule(const Device& device, rendergraph::SpirV
 /// $XDG_CACHE_HOME/lensgraph/ (or ~/.cache/lensgraph/) and a file name of device and driver; empty without a home.
 std::filesystem::path defaultPipelineCacheFile(const Device& device);
 
-}  // namespace engine
+}  // namespace lensgraph::engine

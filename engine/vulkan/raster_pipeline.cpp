@@ -5,7 +5,7 @@
 
 #include "engine/vulkan/pipelines.h"
 
-namespace engine {
+namespace lensgraph::engine {
 namespace {
 
 /// Shader modules and their stages, alive until the pipeline is made.
@@ -110,4 +110,4 @@ Unique<VkPipeline> makeRasterPipeline(const Device& device, VkPipelineCache cach
   return {device.handle(), pipeline, device.vk().vkDestroyPipeline};
 }
 
-}  // namespace engine
+}  // namespace lensgraph::engine

@@ -8,7 +8,7 @@
 #include "engine/vulkan/vulkan_api.h"
 #include "rendergraph/program.h"
 
-namespace engine {
+namespace lensgraph::engine {
 
 /// Viewport and scissor are dynamic. Spans and pointers need to live only until the pipeline is made.
 struct RasterPipelineDesc {
@@ -26,4 +26,4 @@ struct RasterPipelineDesc {
 Unique<VkPipeline> makeRasterPipeline(const Device& device, VkPipelineCache cache, VkPipelineLayout layout,
                                       const RasterPipelineDesc& desc);
 
-}  // namespace engine
+}  // namespace lensgraph::engine

@@ -6,7 +6,7 @@
 
 #include "engine/error.h"
 
-namespace engine {
+namespace lensgraph::engine {
 
 std::string_view nameOf(VkResult result) {
   switch (result) {
@@ -57,4 +57,4 @@ void throwDeviceError(std::string reason, std::string remedy) {
               ErrorKind::failed);
 }
 
-}  // namespace engine
+}  // namespace lensgraph::engine

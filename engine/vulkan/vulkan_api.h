@@ -9,7 +9,7 @@
 
 #include "engine/error.h"
 
-namespace engine {
+namespace lensgraph::engine {
 
 /// What check() throws: an Error (kind failed) that remembers the result.
 class VulkanError : public Error {
@@ -63,4 +63,4 @@ class Unique {
   Destroy destroy_ = nullptr;
 };
 
-}  // namespace engine
+}  // namespace lensgraph::engine

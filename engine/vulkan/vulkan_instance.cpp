@@ -5,7 +5,7 @@
 #include <cstring>
 #include <mutex>
 
-namespace engine {
+namespace lensgraph::engine {
 namespace {
 
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
@@ -108,4 +108,4 @@ VulkanInstance::~VulkanInstance() {
   if (instance_ != VK_NULL_HANDLE) vkDestroyInstance(instance_, nullptr);
 }
 
-}  // namespace engine
+}  // namespace lensgraph::engine

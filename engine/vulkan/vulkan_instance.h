@@ -7,7 +7,7 @@
 
 #include "engine/vulkan/vulkan_api.h"
 
-namespace engine {
+namespace lensgraph::engine {
 
 /// Messages of the validation layers, warnings and errors, in the order in which they came.
 struct ValidationLog {
@@ -36,4 +36,4 @@ class VulkanInstance {
   std::shared_ptr<ValidationLog> log_ = std::make_shared<ValidationLog>();
 };
 
-}  // namespace engine
+}  // namespace lensgraph::engine

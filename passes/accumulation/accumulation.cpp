@@ -8,7 +8,7 @@
 #include "passes/pinhole/pinhole.h"
 #include "passes/technique.h"
 
-namespace passes::accumulation {
+namespace lensgraph::passes::accumulation {
 namespace {
 
 ViewMean meanOf(const Parameters& parameters, const shared::ApertureShape& aperture) {
@@ -66,4 +66,4 @@ Technique technique() {
       TechniqueInput::scene);
 }
 
-}  // namespace passes::accumulation
+}  // namespace lensgraph::passes::accumulation

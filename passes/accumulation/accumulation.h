@@ -12,7 +12,7 @@
 #include "passes/parameters.h"
 #include "passes/registry/registry.h"
 
-namespace passes::accumulation {
+namespace lensgraph::passes::accumulation {
 
 struct Parameters {
   int lensSamples = 256;    ///< 1…65536 views. Cost: one scene draw each.
@@ -36,4 +36,4 @@ DofOutputs declare(rendergraph::Graph& graph, const DofInputs& inputs, const Par
 /// The registry's entry.
 Technique technique();
 
-}  // namespace passes::accumulation
+}  // namespace lensgraph::passes::accumulation

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace passes {
+namespace lensgraph::passes {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
@@ -219,4 +219,4 @@ std::vector<LensSample> lensSamples(const shared::ApertureShape& shape, LensPatt
   return samples;
 }
 
-}  // namespace passes
+}  // namespace lensgraph::passes

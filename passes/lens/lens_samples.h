@@ -13,7 +13,7 @@
 
 #include "shaders/shared/aperture.h"
 
-namespace passes {
+namespace lensgraph::passes {
 
 enum class LensPattern : uint8_t {
   sobol,   ///< Owen-scrambled Sobol; best at powers of two. Lens points are a (0,2)-sequence in base 2.
@@ -46,4 +46,4 @@ LensSample lensSample(const shared::ApertureShape& shape, LensPattern pattern, u
 std::vector<LensSample> lensSamples(const shared::ApertureShape& shape, LensPattern pattern, uint32_t count,
                                     bool pixelJitter);
 
-}  // namespace passes
+}  // namespace lensgraph::passes

@@ -5,7 +5,7 @@
 //   x_clip = 2/w (S x + (K V_f v + j) d - K v)
 #include "passes/lens/lens_view.h"
 
-namespace passes {
+namespace lensgraph::passes {
 
 shared::ViewConstants viewFromLens(const DofInputs& inputs, shared::vec2 v, shared::vec2 pixelOffset) {
   const double s = inputs.projection.pixelsPerTangent;
@@ -28,4 +28,4 @@ shared::ViewConstants viewFromLens(const DofInputs& inputs, shared::vec2 v, shar
   return view;
 }
 
-}  // namespace passes
+}  // namespace lensgraph::passes

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace engine {
+namespace lensgraph::engine {
 namespace {
 
 /// No limit of the blur radius, px. Far above any picture, and its square is still finite in double.
@@ -121,4 +121,4 @@ shared::ApertureShape apertureShape(const Lens& lens) {
   return shape;
 }
 
-}  // namespace engine
+}  // namespace lensgraph::engine

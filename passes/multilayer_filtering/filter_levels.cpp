@@ -8,7 +8,7 @@
 #include <span>
 #include <utility>
 
-namespace passes::multilayer_filtering {
+namespace lensgraph::passes::multilayer_filtering {
 namespace {
 
 using shared::FilterLevel;
@@ -273,4 +273,4 @@ LevelPlan planLevels(const LevelRequest& request) {
   return plan;
 }
 
-}  // namespace passes::multilayer_filtering
+}  // namespace lensgraph::passes::multilayer_filtering

@@ -13,7 +13,7 @@
 
 #include "shaders/shared/multilayer_filtering.h"
 
-namespace passes::multilayer_filtering {
+namespace lensgraph::passes::multilayer_filtering {
 
 /// The shape of the blur.
 enum class Kernel : uint8_t {
@@ -54,4 +54,4 @@ struct LevelPlan {
 
 LevelPlan planLevels(const LevelRequest& request);
 
-}  // namespace passes::multilayer_filtering
+}  // namespace lensgraph::passes::multilayer_filtering

@@ -10,7 +10,7 @@
 #include "passes/pinhole/pinhole.h"
 #include "passes/technique.h"
 
-namespace passes::multilayer_filtering {
+namespace lensgraph::passes::multilayer_filtering {
 namespace {
 
 /// Lists reach at most this far beyond the picture, as a share of its longer side.
@@ -130,4 +130,4 @@ Technique technique() {
       TechniqueInput::scene);
 }
 
-}  // namespace passes::multilayer_filtering
+}  // namespace lensgraph::passes::multilayer_filtering

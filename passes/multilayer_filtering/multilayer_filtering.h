@@ -12,7 +12,7 @@
 #include "passes/parameters.h"
 #include "passes/registry/registry.h"
 
-namespace passes::multilayer_filtering {
+namespace lensgraph::passes::multilayer_filtering {
 
 /// Which fragments lists hold.
 enum class Faces : uint8_t {
@@ -67,4 +67,4 @@ DofOutputs declare(rendergraph::Graph& graph, const DofInputs& inputs, const Par
 /// The registry's entry.
 Technique technique();
 
-}  // namespace passes::multilayer_filtering
+}  // namespace lensgraph::passes::multilayer_filtering

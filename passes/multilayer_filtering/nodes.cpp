@@ -19,7 +19,7 @@
 #include "spirv/multilayer_filtering/shown_comp.h"
 #include "spirv/multilayer_filtering/sort_comp.h"
 
-namespace passes::multilayer_filtering {
+namespace lensgraph::passes::multilayer_filtering {
 namespace {
 
 using rendergraph::Buffer;
@@ -333,4 +333,4 @@ Image declareAccumulate(Graph& graph, const FramePlan& plan, const FragmentLists
   return picture;
 }
 
-}  // namespace passes::multilayer_filtering
+}  // namespace lensgraph::passes::multilayer_filtering

@@ -8,7 +8,7 @@
 #include "passes/multilayer_filtering/multilayer_filtering.h"
 #include "rendergraph/graph.h"
 
-namespace passes::multilayer_filtering {
+namespace lensgraph::passes::multilayer_filtering {
 
 /// What all nodes need.
 struct FramePlan {
@@ -50,4 +50,4 @@ void declareFilter(rendergraph::Graph& graph, const FramePlan& plan, uint32_t le
 rendergraph::Image declareAccumulate(rendergraph::Graph& graph, const FramePlan& plan, const FragmentLists& lists,
                                      rendergraph::Buffer& statistics);
 
-}  // namespace passes::multilayer_filtering
+}  // namespace lensgraph::passes::multilayer_filtering

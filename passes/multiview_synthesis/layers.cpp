@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace passes::multiview_synthesis {
+namespace lensgraph::passes::multiview_synthesis {
 namespace {
 
 struct Interval {
@@ -93,4 +93,4 @@ std::vector<shared::SceneLayer> sceneLayers(std::span<const VergenceInterval> oc
   return layers;
 }
 
-}  // namespace passes::multiview_synthesis
+}  // namespace lensgraph::passes::multiview_synthesis

@@ -11,7 +11,7 @@
 #include "passes/scene_draw.h"
 #include "shaders/shared/emit.h"
 
-namespace passes::multiview_synthesis {
+namespace lensgraph::passes::multiview_synthesis {
 
 struct LayerSpacing {
   double pixelsPerVergence = 1.0;  ///< px·m: how far a ray moves across the picture per 1/m; K times its |v|.
@@ -28,4 +28,4 @@ inline constexpr double kLayerOverlap = 0.1;
 /// Where intervals or their layers are more than allowed, the smallest gaps are closed and layers grow.
 std::vector<shared::SceneLayer> sceneLayers(std::span<const VergenceInterval> occupied, const LayerSpacing& spacing);
 
-}  // namespace passes::multiview_synthesis
+}  // namespace lensgraph::passes::multiview_synthesis

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace passes::multiview_synthesis {
+namespace lensgraph::passes::multiview_synthesis {
 namespace {
 
 float distance(shared::vec2 a, shared::vec2 b) {
@@ -54,4 +54,4 @@ std::vector<LensView> lensViews(const LensRayRequest& request) {
   return views;
 }
 
-}  // namespace passes::multiview_synthesis
+}  // namespace lensgraph::passes::multiview_synthesis

@@ -11,7 +11,7 @@
 #include "passes/lens/lens_samples.h"
 #include "shaders/shared/multiview_synthesis.h"
 
-namespace passes::multiview_synthesis {
+namespace lensgraph::passes::multiview_synthesis {
 
 /// How the rays of one pixel differ from those of the next.
 enum class Jitter : uint8_t {
@@ -44,4 +44,4 @@ float noiseReach(uint32_t rayCount);
 /// Views without rays are left out.
 std::vector<LensView> lensViews(const LensRayRequest& request);
 
-}  // namespace passes::multiview_synthesis
+}  // namespace lensgraph::passes::multiview_synthesis

@@ -12,7 +12,7 @@
 #include "passes/pinhole/pinhole.h"
 #include "passes/technique.h"
 
-namespace passes::multiview_synthesis {
+namespace lensgraph::passes::multiview_synthesis {
 namespace {
 
 constexpr const char* kPrefix = "multiview_synthesis";
@@ -182,4 +182,4 @@ Technique technique() {
       TechniqueInput::scene);
 }
 
-}  // namespace passes::multiview_synthesis
+}  // namespace lensgraph::passes::multiview_synthesis

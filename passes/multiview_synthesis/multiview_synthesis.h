@@ -10,7 +10,7 @@
 #include "passes/parameters.h"
 #include "passes/registry/registry.h"
 
-namespace passes::multiview_synthesis {
+namespace lensgraph::passes::multiview_synthesis {
 
 /// How a ray finds the surface of a layer.
 enum class Search : uint8_t {
@@ -52,4 +52,4 @@ DofOutputs declare(rendergraph::Graph& graph, const DofInputs& inputs, const Par
 /// The registry's entry.
 Technique technique();
 
-}  // namespace passes::multiview_synthesis
+}  // namespace lensgraph::passes::multiview_synthesis

@@ -16,7 +16,7 @@
 #include "spirv/multiview_synthesis/trace_shaded_comp.h"
 #include "spirv/multiview_synthesis/visit_comp.h"
 
-namespace passes::multiview_synthesis {
+namespace lensgraph::passes::multiview_synthesis {
 namespace {
 
 using rendergraph::Binding;
@@ -363,4 +363,4 @@ Image declareTrace(Graph& graph, const ViewPlan& plan, const Tables& tables, con
   return picture;
 }
 
-}  // namespace passes::multiview_synthesis
+}  // namespace lensgraph::passes::multiview_synthesis

@@ -12,7 +12,7 @@
 #include "rendergraph/graph.h"
 #include "shaders/shared/emit.h"
 
-namespace passes::multiview_synthesis {
+namespace lensgraph::passes::multiview_synthesis {
 
 /// Triangles are split over at most this many layers (shaders/scene/layers.geom); with more, what is left moves after.
 inline constexpr uint32_t kMostSplitLayers = 32;
@@ -65,4 +65,4 @@ rendergraph::Image declareTrace(rendergraph::Graph& graph, const ViewPlan& plan,
                                 const LayerImages& images, rendergraph::Buffer visits, rendergraph::Image picture,
                                 bool isFirst, bool isLast);
 
-}  // namespace passes::multiview_synthesis
+}  // namespace lensgraph::passes::multiview_synthesis

@@ -10,7 +10,7 @@
 #include "spirv/prefix_sum/blocks_comp.h"
 #include "spirv/prefix_sum/totals_comp.h"
 
-namespace passes {
+namespace lensgraph::passes {
 namespace {
 
 using rendergraph::Buffer;
@@ -57,4 +57,4 @@ void declarePrefixSum(rendergraph::Graph& graph, const std::string& prefix, Buff
   recordDispatch(add, kAdd, values, totals, range, blocks);
 }
 
-}  // namespace passes
+}  // namespace lensgraph::passes

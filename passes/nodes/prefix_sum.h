@@ -5,7 +5,7 @@
 
 #include "rendergraph/graph.h"
 
-namespace passes {
+namespace lensgraph::passes {
 
 /// Which values of a buffer of uint32_t are summed.
 struct PrefixSumRange {
@@ -21,4 +21,4 @@ struct PrefixSumRange {
 void declarePrefixSum(rendergraph::Graph& graph, const std::string& prefix, rendergraph::Buffer& values,
                       const PrefixSumRange& range);
 
-}  // namespace passes
+}  // namespace lensgraph::passes

@@ -6,7 +6,7 @@
 #include "shaders/shared/sanitize.h"
 #include "spirv/sanitize/sanitize_comp.h"
 
-namespace passes {
+namespace lensgraph::passes {
 
 namespace {
 const rendergraph::ComputeProgram kSanitize{"sanitize", sanitize_sanitize_comp};
@@ -25,4 +25,4 @@ void declareSanitize(rendergraph::Graph& graph, const std::string& prefix, rende
   });
 }
 
-}  // namespace passes
+}  // namespace lensgraph::passes

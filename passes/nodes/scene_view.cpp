@@ -9,7 +9,7 @@
 #include "shaders/shared/transparency.h"
 #include "spirv/transparency/composite_comp.h"
 
-namespace passes {
+namespace lensgraph::passes {
 namespace {
 
 using rendergraph::Binding;
@@ -118,4 +118,4 @@ SceneViewOutputs declareSceneView(Graph& graph, const DofInputs& inputs, const s
   return out;
 }
 
-}  // namespace passes
+}  // namespace lensgraph::passes

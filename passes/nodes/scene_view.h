@@ -9,7 +9,7 @@
 #include "passes/parameters.h"
 #include "shaders/shared/view.h"
 
-namespace passes {
+namespace lensgraph::passes {
 
 struct SceneViewOutputs {
   rendergraph::Image color;        ///< RGBA32F, alpha 1.
@@ -29,4 +29,4 @@ std::vector<Problem> checkSceneInputs(const DofInputs& inputs);
 SceneViewOutputs declareSceneView(rendergraph::Graph& graph, const DofInputs& inputs, const std::string& prefix,
                                   const shared::ViewConstants& view, rendergraph::Buffer statistics);
 
-}  // namespace passes
+}  // namespace lensgraph::passes

@@ -2,7 +2,7 @@
 
 #include "shaders/shared/statistics.h"
 
-namespace passes {
+namespace lensgraph::passes {
 
 rendergraph::Buffer declareStatistics(rendergraph::Graph& graph, const std::string& prefix) {
   auto statistics = graph.createBuffer(prefix + ".statistics", {.size = sizeof(shared::FrameStatistics)});
@@ -12,4 +12,4 @@ rendergraph::Buffer declareStatistics(rendergraph::Graph& graph, const std::stri
   return statistics;
 }
 
-}  // namespace passes
+}  // namespace lensgraph::passes

@@ -5,9 +5,9 @@
 
 #include "rendergraph/graph.h"
 
-namespace passes {
+namespace lensgraph::passes {
 
 /// A zeroed FrameStatistics buffer, by a fill pass named `prefix`.clear_statistics.
 rendergraph::Buffer declareStatistics(rendergraph::Graph& graph, const std::string& prefix);
 
-}  // namespace passes
+}  // namespace lensgraph::passes

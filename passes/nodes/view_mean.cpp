@@ -11,7 +11,7 @@
 #include "spirv/accumulation/accumulate_comp.h"
 #include "spirv/accumulation/resolve_comp.h"
 
-namespace passes {
+namespace lensgraph::passes {
 namespace {
 
 using rendergraph::Buffer;
@@ -107,4 +107,4 @@ DofOutputs declareViewMean(Graph& graph, const DofInputs& inputs, const ViewMean
   return out;
 }
 
-}  // namespace passes
+}  // namespace lensgraph::passes

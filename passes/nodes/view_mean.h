@@ -8,7 +8,7 @@
 #include "passes/dof_io.h"
 #include "passes/lens/lens_samples.h"
 
-namespace passes {
+namespace lensgraph::passes {
 
 struct ViewMean {
   std::string prefix;          ///< Of pass and resource names; also names what persists across executions.
@@ -25,4 +25,4 @@ uint32_t frameCount(const ViewMean& mean);
 /// Precondition: inputs.scene is set and outlives the recording.
 DofOutputs declareViewMean(rendergraph::Graph& graph, const DofInputs& inputs, const ViewMean& mean);
 
-}  // namespace passes
+}  // namespace lensgraph::passes

@@ -10,7 +10,7 @@
 #include "passes/nodes/view_mean.h"
 #include "passes/technique.h"
 
-namespace passes::pinhole {
+namespace lensgraph::passes::pinhole {
 namespace {
 
 ViewMean meanOf(const Parameters& parameters) {
@@ -64,4 +64,4 @@ Technique technique() {
   return makeTechnique<fields, validate, declare, frameCount>({"pinhole", "Pinhole", "no lens"}, TechniqueInput::scene);
 }
 
-}  // namespace passes::pinhole
+}  // namespace lensgraph::passes::pinhole

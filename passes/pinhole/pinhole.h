@@ -10,7 +10,7 @@
 #include "passes/parameters.h"
 #include "passes/registry/registry.h"
 
-namespace passes::pinhole {
+namespace lensgraph::passes::pinhole {
 
 struct Parameters {
   int pixelSamples = 1;   ///< 1…4096 views; 1 looks through the pixel's centre only. Cost: one scene draw each.
@@ -31,4 +31,4 @@ DofOutputs declare(rendergraph::Graph& graph, const DofInputs& inputs, const Par
 /// The registry's entry.
 Technique technique();
 
-}  // namespace passes::pinhole
+}  // namespace lensgraph::passes::pinhole

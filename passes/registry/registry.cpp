@@ -9,7 +9,7 @@
 #include "passes/pinhole/pinhole.h"
 #include "passes/two_pass_filter/two_pass_filter.h"
 
-namespace passes {
+namespace lensgraph::passes {
 
 std::span<const Technique> techniques() {
   static const std::vector<Technique> all = {
@@ -34,4 +34,4 @@ std::string_view nearestTechniqueName(std::string_view name) {
   return nearestName(name, names);
 }
 
-}  // namespace passes
+}  // namespace lensgraph::passes

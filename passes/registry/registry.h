@@ -9,7 +9,7 @@
 #include "passes/parameters.h"
 #include "rendergraph/graph.h"
 
-namespace passes {
+namespace lensgraph::passes {
 
 enum class TechniqueInput : uint8_t {
   image,  ///< Works on colour and depth of the pinhole view; usable on any RGBZ image.
@@ -37,4 +37,4 @@ const Technique* findTechnique(std::string_view name);
 /// The most similar name, to suggest; empty when none is near.
 std::string_view nearestTechniqueName(std::string_view name);
 
-}  // namespace passes
+}  // namespace lensgraph::passes

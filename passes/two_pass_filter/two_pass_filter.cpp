@@ -16,7 +16,7 @@
 #include "spirv/two_pass_filter/tiles_comp.h"
 #include "spirv/two_pass_filter/vertical_comp.h"
 
-namespace passes::two_pass_filter {
+namespace lensgraph::passes::two_pass_filter {
 namespace {
 
 using rendergraph::Binding;
@@ -215,4 +215,4 @@ Technique technique() {
       TechniqueInput::image);
 }
 
-}  // namespace passes::two_pass_filter
+}  // namespace lensgraph::passes::two_pass_filter

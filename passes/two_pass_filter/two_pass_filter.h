@@ -10,7 +10,7 @@
 #include "passes/parameters.h"
 #include "passes/registry/registry.h"
 
-namespace passes::two_pass_filter {
+namespace lensgraph::passes::two_pass_filter {
 
 struct Parameters {
   float maxRadius = 256.0f;  ///< px, 1…1024: blur radii are limited to it.
@@ -34,4 +34,4 @@ uint32_t frameCount(const Parameters& parameters, const DofInputs& inputs);
 /// The registry's entry.
 Technique technique();
 
-}  // namespace passes::two_pass_filter
+}  // namespace lensgraph::passes::two_pass_filter

@@ -8,7 +8,7 @@
 #include "rendergraph/compile/schedule/schedule.h"
 #include "rendergraph/declare/declaration.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 namespace {
 
@@ -130,4 +130,4 @@ void planAttachments(const Declaration& declaration, const Cells& cells, const T
   }
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -3,7 +3,7 @@
 
 #include "rendergraph/plan.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 struct Declaration;
 struct Schedule;
@@ -15,4 +15,4 @@ class Timeline;
 void planAttachments(const Declaration& declaration, const Cells& cells, const Timeline& timeline,
                      const Schedule& schedule, Plan& plan);
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -23,7 +23,7 @@
 #include "rendergraph/declare/declaration.h"
 #include "rendergraph/error.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 namespace {
 
@@ -115,4 +115,4 @@ Plan compile(const Declaration& declaration, const CompileOptions& options, cons
   return plan;
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

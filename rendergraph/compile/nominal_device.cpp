@@ -3,7 +3,7 @@
 
 #include "rendergraph/compiler.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 namespace {
 
@@ -35,4 +35,4 @@ MemoryRequirements NominalDevice::requirements(const BufferDesc& desc, VkBufferU
   return aligned(desc.size);
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

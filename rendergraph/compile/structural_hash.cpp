@@ -9,7 +9,7 @@
 #include "rendergraph/compiler.h"
 #include "rendergraph/declare/declaration.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 namespace {
 
@@ -88,4 +88,4 @@ uint64_t structuralHash(const Declaration& declaration, const CompileOptions& op
   return hash.value();
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 namespace {
 
@@ -222,4 +222,4 @@ void checkAttachment(Declaration& declaration, AccessRequest request) {
   }
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -6,7 +6,7 @@
 
 #include "rendergraph/declare/declaration.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 /// An access as the host asked for it. The checks take it by value: one whose address leaves the caller would have to
 /// be put together in memory for every access, and most need no check.
@@ -48,4 +48,4 @@ void checkConflicts(Declaration& declaration, AccessRequest request, const Subre
 /// Size, layers and samples of the attachment declared last against the others of its pass.
 void checkAttachment(Declaration& declaration, AccessRequest request);
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

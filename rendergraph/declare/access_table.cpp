@@ -3,7 +3,7 @@
 
 #include <array>
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 namespace {
 
@@ -121,4 +121,4 @@ std::string_view nameOf(AccessMode mode) {
   return "?";
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -10,7 +10,7 @@
 
 #include "rendergraph/resource.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 enum class Usage : uint8_t {
   sampled,              ///< Image read through a sampler or texelFetch.
@@ -72,4 +72,4 @@ VkImageLayout combinedLayout(VkImageLayout a, VkImageLayout b);
 std::string_view nameOf(Usage usage);
 std::string_view nameOf(AccessMode mode);
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

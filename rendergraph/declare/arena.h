@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 class Arena {
  public:
@@ -56,4 +56,4 @@ class Arena {
   std::size_t used_ = 0;     // Bytes used of it.
 };
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

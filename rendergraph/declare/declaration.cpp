@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 namespace {
 
@@ -75,4 +75,4 @@ void Declaration::throwHandle(uint32_t resource, uint32_t graph, uint32_t pass, 
                             "use handles as the graph returned them", where)});
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

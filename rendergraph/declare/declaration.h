@@ -19,7 +19,7 @@
 #include "rendergraph/pass.h"
 #include "rendergraph/resource.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 inline constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
 
@@ -211,4 +211,4 @@ inline AccessState restStateOf(const DeclaredResource& resource) {
           .layout = resource.exported ? resource.after.layout : VK_IMAGE_LAYOUT_GENERAL};
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

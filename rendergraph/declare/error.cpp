@@ -3,7 +3,7 @@
 
 #include <utility>
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 namespace {
 
@@ -76,4 +76,4 @@ std::string_view nameOf(Misuse misuse) {
   return "?";
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -8,7 +8,7 @@
 #include "rendergraph/declare/declaration.h"
 #include "rendergraph/image_tap.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 namespace {
 
@@ -260,4 +260,4 @@ void Graph::setRecording(uint32_t pass, void* recording, Recorder recorder, Dest
   if (destroyer != nullptr) declaration_->recordingsToDestroy = true;
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -6,7 +6,7 @@
 #include "rendergraph/declare/declaration.h"
 #include "rendergraph/graph.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 namespace {
 
@@ -104,4 +104,4 @@ std::vector<TapChoice> tappableImages(const Graph& graph) {
   return choices;
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -1,7 +1,7 @@
 // Words for what a declaration consists of.
 #include "rendergraph/declare/names.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 const char* nameOf(PassKind kind) {
   switch (kind) {
@@ -45,4 +45,4 @@ const char* nameOf(MemoryKind kind) {
   return "?";
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

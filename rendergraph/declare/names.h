@@ -4,11 +4,11 @@
 #include "rendergraph/declare/declaration.h"
 #include "rendergraph/pass.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 /// Literals: they live as long as the program.
 const char* nameOf(PassKind kind);
 const char* nameOf(Origin origin);
 const char* nameOf(MemoryKind kind);
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

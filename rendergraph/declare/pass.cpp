@@ -7,7 +7,7 @@
 #include "rendergraph/declare/declaration.h"
 #include "rendergraph/graph.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 namespace {
 
@@ -263,4 +263,4 @@ void Pass::prefer(QueuePreference queue) {
   graph_->declaration_->passes[index_].queue = queue;
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -9,7 +9,7 @@
 #include <new>
 #include <type_traits>
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 template <class T>
 class Records {
@@ -49,4 +49,4 @@ class Records {
   uint32_t size_ = 0, capacity_ = 0;
 };
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -5,7 +5,7 @@
 #include <array>
 #include <iterator>
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 VkImageAspectFlags aspectsOf(VkFormat format) {
   switch (format) {
@@ -114,4 +114,4 @@ bool contains(const Subresources& outer, const Subresources& inner) {
          (inner.aspects & ~outer.aspects) == 0;
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

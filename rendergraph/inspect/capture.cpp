@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <tuple>
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 namespace {
 
@@ -53,4 +53,4 @@ std::vector<CapturedEdge> edgesOf(const Capture& capture) {
   return edges;
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

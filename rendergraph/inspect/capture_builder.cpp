@@ -7,7 +7,7 @@
 #include "rendergraph/declare/declaration.h"
 #include "rendergraph/declare/names.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 namespace {
 
@@ -162,4 +162,4 @@ VkDeviceSize bytesAlive(const Capture& capture, uint32_t step) {
   return bytes;
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -4,7 +4,7 @@
 #include "rendergraph/capture.h"
 #include "rendergraph/executor.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 struct Declaration;
 
@@ -12,4 +12,4 @@ struct Declaration;
 /// what the capture held, so that an unchanged frame allocates nothing.
 void beginCapture(Capture& capture, const Declaration& declaration, const Plan& plan, Timing timing);
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

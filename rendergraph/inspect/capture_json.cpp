@@ -6,7 +6,7 @@
 #include "rendergraph/declare/names.h"
 #include "rendergraph/inspect/json_text.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 namespace {
 
@@ -130,4 +130,4 @@ void writeJson(std::ostream& out, const Capture& capture) {
   writeJson(out, series);
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

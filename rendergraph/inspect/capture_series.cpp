@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <tuple>
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 namespace {
 
@@ -80,4 +80,4 @@ uint32_t CaptureSeries::plansReused() const {
   return static_cast<uint32_t>(std::ranges::count_if(frames_, &Capture::planReused));
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

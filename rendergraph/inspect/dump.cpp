@@ -12,7 +12,7 @@
 #include "rendergraph/inspect/vulkan_names.h"
 #include "rendergraph/memory_notes.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 namespace {
 
@@ -291,4 +291,4 @@ void writeText(std::ostream& out, const Graph& graph, const Plan& plan) {
   }
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

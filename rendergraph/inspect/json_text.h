@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 /// The text in quotes, with what JSON wants escaped. UTF-8 passes through.
 inline std::string jsonString(std::string_view text) {
@@ -26,4 +26,4 @@ inline std::string jsonString(std::string_view text) {
   return out + '"';
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -4,7 +4,7 @@
 
 #include "rendergraph/declare/declaration.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 namespace {
 
@@ -64,4 +64,4 @@ std::vector<std::string> memoryNotes(const Declaration& declaration, const Plan&
   return notes;
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

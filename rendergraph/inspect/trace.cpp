@@ -9,7 +9,7 @@
 #include "rendergraph/declare/names.h"
 #include "rendergraph/inspect/json_text.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 namespace {
 
@@ -113,4 +113,4 @@ void writeTrace(std::ostream& out, std::span<const Capture> frames, std::string_
   out << "\n]}\n";
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <span>
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 namespace {
 
@@ -115,4 +115,4 @@ std::string layoutName(VkImageLayout layout) {
   }
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

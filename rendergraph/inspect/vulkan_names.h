@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 /// Names joined by '+', in the order of the bits; "none" for 0; unknown bits in hexadecimal.
 std::string stageNames(VkPipelineStageFlags2 stages);
@@ -14,4 +14,4 @@ std::string accessNames(VkAccessFlags2 access);
 /// "undefined", "general", …; the number for a layout that the graph never uses itself.
 std::string layoutName(VkImageLayout layout);
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -11,7 +11,7 @@
 #include "engine/error.h"
 #include "passes/parameters.h"
 
-namespace host {
+namespace lensgraph::host {
 
 using nlohmann::json;
 
@@ -235,4 +235,4 @@ glm::dvec3 JsonNode::vector(const std::string& what) const {
   return {parts[0].number(), parts[1].number(), parts[2].number()};
 }
 
-}  // namespace host
+}  // namespace lensgraph::host

@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-namespace host {
+namespace lensgraph::host {
 
 /// Throws engine::Error: missing, a folder, empty, malformed (with line and column), a field given twice, a
 /// number that overflows.
@@ -64,4 +64,4 @@ class JsonNode {
   std::string path_;  ///< "scene[0].translation"; empty for the document.
 };
 
-}  // namespace host
+}  // namespace lensgraph::host

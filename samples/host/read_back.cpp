@@ -6,7 +6,7 @@
 #include <cstring>
 #include <string>
 
-namespace host {
+namespace lensgraph::host {
 
 using rendergraph::Buffer;
 using rendergraph::Graph;
@@ -61,4 +61,4 @@ double rootMeanSquare(std::span<const std::byte> bytes) {
   return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(count, 1)));
 }
 
-}  // namespace host
+}  // namespace lensgraph::host

@@ -7,7 +7,7 @@
 #include "engine/image/image.h"
 #include "rendergraph/graph.h"
 
-namespace host {
+namespace lensgraph::host {
 
 /// Adds a copy of mip 0 of an image into a host-readable buffer (tightly packed rows) and exports that; read it with
 /// Executor::mapped() after the execution. `name` names buffer and pass.
@@ -20,4 +20,4 @@ engine::FloatImage imageFrom(std::span<const std::byte> bytes, VkExtent2D extent
 /// Of float samples.
 double rootMeanSquare(std::span<const std::byte> bytes);
 
-}  // namespace host
+}  // namespace lensgraph::host

@@ -22,7 +22,7 @@
 #include "samples/host/shot_scene.h"
 #include "samples/host/texels.h"
 
-namespace host {
+namespace lensgraph::host {
 namespace {
 
 using passes::DofInputs;
@@ -389,4 +389,4 @@ Rendering Renderer::apply(const engine::FloatImage& color, const engine::FloatIm
   return rendering;
 }
 
-}  // namespace host
+}  // namespace lensgraph::host

@@ -16,12 +16,12 @@
 #include "samples/host/shot.h"
 #include "shaders/shared/statistics.h"
 
-namespace engine {
+namespace lensgraph::engine {
 class Device;
 struct Scene;
-}  // namespace engine
+}  // namespace lensgraph::engine
 
-namespace host {
+namespace lensgraph::host {
 
 struct Rendering {
   engine::FloatImage color;  ///< Linear RGBA.
@@ -94,4 +94,4 @@ class Renderer {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace host
+}  // namespace lensgraph::host

@@ -12,7 +12,7 @@
 #include "samples/host/json_reader.h"
 #include "samples/host/technique_choice.h"
 
-namespace host {
+namespace lensgraph::host {
 namespace {
 
 using std::filesystem::path;
@@ -219,4 +219,4 @@ Shot readShot(const path& file) {
   return shot;
 }
 
-}  // namespace host
+}  // namespace lensgraph::host

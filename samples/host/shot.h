@@ -12,7 +12,7 @@
 #include "passes/lens/physical_lens.h"
 #include "passes/parameters.h"
 
-namespace host {
+namespace lensgraph::host {
 
 /// px. The device's own limit is checked when it renders.
 inline constexpr int kMaxResolution = 16384;
@@ -51,4 +51,4 @@ struct Shot {
 /// Reads and checks a shot file. Throws engine::Error with file, field (or line and column), reason, remedy.
 Shot readShot(const std::filesystem::path& file);
 
-}  // namespace host
+}  // namespace lensgraph::host

@@ -3,7 +3,7 @@
 
 #include "engine/gltf/load_gltf.h"
 
-namespace host {
+namespace lensgraph::host {
 
 engine::Scene loadShotScene(const Shot& shot, std::vector<std::string>& warnings) {
   engine::Scene scene;
@@ -43,4 +43,4 @@ engine::FloatImage withOpaqueAlpha(const engine::FloatImage& picture) {
   return out;
 }
 
-}  // namespace host
+}  // namespace lensgraph::host

@@ -9,7 +9,7 @@
 #include "engine/scene/scene.h"
 #include "samples/host/shot.h"
 
-namespace host {
+namespace lensgraph::host {
 
 /// Loads every part of the shot into one scene. Throws engine::Error; the loader's warnings are appended.
 engine::Scene loadShotScene(const Shot& shot, std::vector<std::string>& warnings);
@@ -20,4 +20,4 @@ engine::Camera shotCamera(const Shot& shot, const engine::Scene& scene);
 /// RGBA of a picture of one, three or four channels; alpha 1 where there is none.
 engine::FloatImage withOpaqueAlpha(const engine::FloatImage& picture);
 
-}  // namespace host
+}  // namespace lensgraph::host

@@ -9,7 +9,7 @@
 #include "engine/error.h"
 #include "samples/host/json_reader.h"
 
-namespace host {
+namespace lensgraph::host {
 namespace {
 
 constexpr const char* kCommandLine = "command line";
@@ -107,4 +107,4 @@ void setParameter(TechniqueChoice& choice, std::string_view assignment) {
   choice.parameters[name] = value;
 }
 
-}  // namespace host
+}  // namespace lensgraph::host

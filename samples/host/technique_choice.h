@@ -11,7 +11,7 @@
 #include "passes/parameters.h"
 #include "passes/registry/registry.h"
 
-namespace host {
+namespace lensgraph::host {
 
 class JsonNode;
 
@@ -34,4 +34,4 @@ TechniqueChoice readTechniqueFile(const std::filesystem::path& file, std::string
 /// unchanged.
 void setParameter(TechniqueChoice& choice, std::string_view assignment);
 
-}  // namespace host
+}  // namespace lensgraph::host

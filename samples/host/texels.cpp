@@ -14,7 +14,7 @@
 
 #include "engine/error.h"
 
-namespace host {
+namespace lensgraph::host {
 namespace {
 
 /// How one component is stored.
@@ -178,4 +178,4 @@ engine::FloatImage pictureOf(std::span<const std::byte> bytes, VkFormat format, 
   return picture;
 }
 
-}  // namespace host
+}  // namespace lensgraph::host

@@ -8,7 +8,7 @@
 
 #include "engine/image/image.h"
 
-namespace host {
+namespace lensgraph::host {
 
 /// The picture that tightly packed rows of texels hold; as many channels as the format has, but 3 for two (the third
 /// is 0), since files have no pictures of two. Normalised integers become 0…1 (-1…1), other integers their value,
@@ -18,4 +18,4 @@ namespace host {
 engine::FloatImage pictureOf(std::span<const std::byte> bytes, VkFormat format, VkImageAspectFlags aspect,
                              VkExtent2D extent);
 
-}  // namespace host
+}  // namespace lensgraph::host

@@ -15,7 +15,7 @@
 #include "samples/host/shot.h"
 #include "samples/lensgraph/subcommands.h"
 
-namespace cli {
+namespace lensgraph::cli {
 namespace {
 
 [[noreturn]] void failUsage(const std::string& field, const std::string& reason, const std::string& remedy) {
@@ -292,4 +292,4 @@ int run(int argc, char** argv) {
   return 1;  // unreachable: every subcommand stands in the list
 }
 
-}  // namespace cli
+}  // namespace lensgraph::cli

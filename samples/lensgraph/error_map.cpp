@@ -6,7 +6,7 @@
 
 #include "engine/image/metrics.h"
 
-namespace cli {
+namespace lensgraph::cli {
 namespace {
 // Five colours of matplotlib's "inferno" (0, 1/4, …, 1): lightness rises evenly, and so it reads in grey too.
 constexpr std::array<std::array<float, 3>, 5> kColors = {{{0.001f, 0.000f, 0.014f},
@@ -41,4 +41,4 @@ engine::FloatImage errorMap(const engine::FloatImage& picture, const engine::Flo
   return map;
 }
 
-}  // namespace cli
+}  // namespace lensgraph::cli

@@ -5,7 +5,7 @@
 
 #include "engine/image/image.h"
 
-namespace cli {
+namespace lensgraph::cli {
 
 /// Largest difference of a channel of the displayed pictures that the map still tells apart; above it stays
 /// the last colour. A quarter of full scale: most of what depth of field gets wrong lies below.
@@ -18,4 +18,4 @@ std::array<float, 3> errorColor(float error);
 /// A linear picture to be written as PNG. Precondition: both have the same size and at least three channels.
 engine::FloatImage errorMap(const engine::FloatImage& picture, const engine::FloatImage& reference);
 
-}  // namespace cli
+}  // namespace lensgraph::cli

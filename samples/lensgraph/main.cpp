@@ -14,6 +14,8 @@
 #include "rendergraph/error.h"
 #include "samples/lensgraph/subcommands.h"
 
+using namespace lensgraph;
+
 namespace {
 
 constexpr int kFailed = 1;

@@ -14,7 +14,7 @@
 
 #include "engine/error.h"
 
-namespace cli {
+namespace lensgraph::cli {
 namespace {
 
 using std::filesystem::path;
@@ -102,4 +102,4 @@ void writeTextFile(const path& file, std::string_view text) {
   }
 }
 
-}  // namespace cli
+}  // namespace lensgraph::cli

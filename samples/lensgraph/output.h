@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace cli {
+namespace lensgraph::cli {
 
 /// Throws engine::Error (bad input) unless the file could be written: its folder is there and takes files,
 /// and the path is no folder. `extensions`: those allowed, lower case with the dot; empty allows any. Leaves
@@ -34,4 +34,4 @@ void warnUnusedExposure(const std::filesystem::path& output);
 /// Writes beside the place and renames. "-" is stdout. Throws engine::Error (failed).
 void writeTextFile(const std::filesystem::path& file, std::string_view text);
 
-}  // namespace cli
+}  // namespace lensgraph::cli

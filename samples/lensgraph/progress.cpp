@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <utility>
 
-namespace cli {
+namespace lensgraph::cli {
 namespace {
 constexpr int kBarWidth = 30;
 constexpr std::chrono::milliseconds kDrawInterval{100};
@@ -47,4 +47,4 @@ void ProgressBar::wipe() {
   drawn_ = false;
 }
 
-}  // namespace cli
+}  // namespace lensgraph::cli

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-namespace cli {
+namespace lensgraph::cli {
 
 class ProgressBar {
  public:
@@ -27,4 +27,4 @@ class ProgressBar {
   std::chrono::steady_clock::time_point start_, nextDraw_;
 };
 
-}  // namespace cli
+}  // namespace lensgraph::cli

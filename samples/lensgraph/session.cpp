@@ -7,7 +7,7 @@
 
 #include "engine/error.h"
 
-namespace cli {
+namespace lensgraph::cli {
 
 std::string describe(const engine::DeviceDescription& device) {
   return device.name + ", " + device.type + ", " + device.driver;
@@ -81,4 +81,4 @@ void printSummary(const engine::DeviceDescription& device, const host::Technique
   }
 }
 
-}  // namespace cli
+}  // namespace lensgraph::cli

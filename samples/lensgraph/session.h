@@ -12,7 +12,7 @@
 #include "samples/host/technique_choice.h"
 #include "samples/lensgraph/subcommands.h"
 
-namespace cli {
+namespace lensgraph::cli {
 
 /// "llvmpipe (LLVM 15.0.6, 256 bits), cpu, Mesa 22.3.6".
 std::string describe(const engine::DeviceDescription& device);
@@ -40,4 +40,4 @@ host::TechniqueChoice chooseTechnique(host::TechniqueChoice fromShot, const Tech
 void printSummary(const engine::DeviceDescription& device, const host::TechniqueChoice& choice,
                   const host::Rendering& rendering);
 
-}  // namespace cli
+}  // namespace lensgraph::cli

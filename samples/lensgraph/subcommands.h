@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace cli {
+namespace lensgraph::cli {
 
 struct GlobalArguments {
   std::string device;       ///< Index or part of the name; empty: the most capable one.
@@ -102,4 +102,4 @@ int runDevices(bool json);
 /// (with file "command line") for wrong usage.
 int run(int argc, char** argv);
 
-}  // namespace cli
+}  // namespace lensgraph::cli

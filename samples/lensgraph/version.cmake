@@ -9,9 +9,9 @@ file(CONFIGURE OUTPUT ${OUTPUT} @ONLY CONTENT [[
 // Written by version.cmake.
 #pragma once
 
-namespace cli {
+namespace lensgraph::cli {
 inline constexpr const char* kVersion = "@VERSION@";
 /// Abbreviated, with "-dirty" when the tree had changes; empty when built outside a git checkout.
 inline constexpr const char* kCommit = "@COMMIT@";
-}  // namespace cli
+}  // namespace lensgraph::cli
 ]])

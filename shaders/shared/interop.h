@@ -1,5 +1,5 @@
 // Makes one header readable by GLSL and by C++: the vector types and the few keywords that differ.
-// Include it first in every header of shaders/shared. In C++ everything lands in namespace `shared`.
+// Include it first in every header of shaders/shared. In C++ everything lands in namespace `lensgraph::shared`.
 #ifndef LENSGRAPH_SHARED_INTEROP_H
 #define LENSGRAPH_SHARED_INTEROP_H
 
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace shared {
+namespace lensgraph::shared {
 
 // Plain vectors with GLSL's names and sizes, without arithmetic: C++ uses them to fill push constants and buffers.
 struct vec2 {
@@ -43,9 +43,9 @@ using std::sin;
 using std::sqrt;
 inline float atan(float y, float x) { return std::atan2(y, x); }
 
-}  // namespace shared
+}  // namespace lensgraph::shared
 
-#define SHARED_NAMESPACE_BEGIN namespace shared {
+#define SHARED_NAMESPACE_BEGIN namespace lensgraph::shared {
 #define SHARED_NAMESPACE_END }
 #define SHARED_FUNCTION inline
 #define SHARED_CONST inline constexpr

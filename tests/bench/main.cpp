@@ -17,6 +17,8 @@
 #include "speed.h"
 #include "tables.h"
 
+using namespace lensgraph;
+
 namespace {
 
 using nlohmann::ordered_json;

@@ -12,7 +12,7 @@
 #include "support/batch_count.h"
 #include "support/corpus.h"
 
-namespace bench {
+namespace lensgraph::bench {
 
 namespace {
 
@@ -132,4 +132,4 @@ ordered_json techniques() {
   return rows;
 }
 
-}  // namespace bench
+}  // namespace lensgraph::bench

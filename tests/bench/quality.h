@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace bench {
+namespace lensgraph::bench {
 
 /// Heap against the largest live sum, over 200 seeds of 100 passes, by workload and level of aliasing.
 nlohmann::ordered_json aliasingQuality();
@@ -15,4 +15,4 @@ nlohmann::ordered_json batchesAgainstBytes();
 /// Every technique with its default parameters at 1280 × 720 and 3840 × 2160 on the nominal device.
 nlohmann::ordered_json techniques();
 
-}  // namespace bench
+}  // namespace lensgraph::bench

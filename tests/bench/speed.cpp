@@ -13,7 +13,7 @@
 #include "support/corpus.h"
 #include "support/fake_backend.h"
 
-namespace bench {
+namespace lensgraph::bench {
 
 namespace {
 
@@ -170,4 +170,4 @@ nlohmann::ordered_json runSpeed() {
   return std::move(collector.results);
 }
 
-}  // namespace bench
+}  // namespace lensgraph::bench

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace bench {
+namespace lensgraph::bench {
 
 /// To be called before benchmark::RunSpecifiedBenchmarks(). Names are STEP/WORKLOAD/PASSES.
 void registerSpeed();
@@ -12,4 +12,4 @@ void registerSpeed();
 /// repetitions in CPU nanoseconds per pass, since other programs share the machine.
 nlohmann::ordered_json runSpeed();
 
-}  // namespace bench
+}  // namespace lensgraph::bench

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <initializer_list>
 
-namespace bench {
+namespace lensgraph::bench {
 
 namespace {
 
@@ -99,4 +99,4 @@ std::string markdown(const ordered_json& results) {
          batchesTable(results.at("batches")) + "\n" + techniquesTable(results.at("techniques"));
 }
 
-}  // namespace bench
+}  // namespace lensgraph::bench

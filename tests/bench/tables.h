@@ -4,9 +4,9 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-namespace bench {
+namespace lensgraph::bench {
 
 /// `results`: what main.cpp writes.
 std::string markdown(const nlohmann::ordered_json& results);
 
-}  // namespace bench
+}  // namespace lensgraph::bench

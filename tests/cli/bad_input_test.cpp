@@ -5,6 +5,8 @@
 #include "engine/image/image_io.h"
 #include "program.h"
 
+namespace lensgraph {
+
 namespace {
 
 using nlohmann::json;
@@ -233,3 +235,5 @@ TEST_F(BadInput, UnknownDevice) {
 }
 
 }  // namespace
+
+}  // namespace lensgraph

@@ -12,6 +12,8 @@
 #include "passes/registry/registry.h"
 #include "program.h"
 
+namespace lensgraph {
+
 namespace {
 
 using nlohmann::json;
@@ -232,3 +234,5 @@ TEST_F(GoodInput, DemoWritesAPageWithItsPictures) {
 }
 
 }  // namespace
+
+}  // namespace lensgraph

@@ -8,6 +8,8 @@
 #include "engine/image/image_io.h"
 #include "program.h"
 
+namespace lensgraph {
+
 namespace {
 
 using nlohmann::json;
@@ -204,3 +206,5 @@ TEST_F(Looks, BadCaptureFiles) {
 }
 
 }  // namespace
+
+}  // namespace lensgraph

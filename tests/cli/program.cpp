@@ -13,7 +13,7 @@
 #include <iterator>
 #include <set>
 
-namespace cli_test {
+namespace lensgraph::cli_test {
 namespace {
 
 using nlohmann::json;
@@ -179,4 +179,4 @@ void ProgramTest::expectError(const std::vector<std::string>& arguments, int sta
   EXPECT_THAT(listing(folder_), testing::ContainerEq(before)) << "a file was left behind";
 }
 
-}  // namespace cli_test
+}  // namespace lensgraph::cli_test

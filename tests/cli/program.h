@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace cli_test {
+namespace lensgraph::cli_test {
 
 struct Outcome {
   int status = -1;  ///< Exit status; 128 + signal when it was killed.
@@ -51,4 +51,4 @@ class ProgramTest : public testing::Test {
   std::filesystem::path folder_, logs_;
 };
 
-}  // namespace cli_test
+}  // namespace lensgraph::cli_test

@@ -9,6 +9,8 @@
 #include "engine/image/metrics.h"
 #include "tests/support/gpu/gpu_test.h"
 
+namespace lensgraph {
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -80,3 +82,5 @@ INSTANTIATE_TEST_SUITE_P(Every, GoldenPictures, testing::ValuesIn(kGoldens),
                          [](const auto& info) { return info.param.name(); });
 
 }  // namespace
+
+}  // namespace lensgraph

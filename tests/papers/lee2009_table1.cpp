@@ -5,6 +5,8 @@
 //   lee2009_table1 -o docs/results/lee2009_table1_llvmpipe.json S/stones_60k.json S/stones_300k.json S/stones_1500k.json
 #include "measure.h"
 
+using namespace lensgraph;
+
 namespace {
 
 using nlohmann::ordered_json;

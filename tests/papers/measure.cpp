@@ -12,7 +12,7 @@
 #include "engine/image/metrics.h"
 #include "engine/vulkan/device.h"
 
-namespace papers {
+namespace lensgraph::papers {
 namespace {
 
 using nlohmann::ordered_json;
@@ -92,4 +92,4 @@ int run(int argc, char** argv,
   return 0;
 }
 
-}  // namespace papers
+}  // namespace lensgraph::papers

@@ -8,7 +8,7 @@
 #include "samples/host/renderer.h"
 #include "samples/host/shot.h"
 
-namespace papers {
+namespace lensgraph::papers {
 
 engine::FloatImage pictureOf(host::Renderer& renderer, const host::Shot& shot, const std::string& technique,
                              const passes::ParameterSet& parameters);
@@ -26,4 +26,4 @@ nlohmann::ordered_json measure(host::Renderer& renderer, const host::Shot& shot,
 int run(int argc, char** argv,
         nlohmann::ordered_json (*rowsOf)(host::Renderer& renderer, const host::Shot& shot, const std::string& file));
 
-}  // namespace papers
+}  // namespace lensgraph::papers

@@ -6,6 +6,8 @@
 // The reference is dof.exr beside the shot where there is one (ray-traced), else accumulation of 1024 views.
 #include "measure.h"
 
+using namespace lensgraph;
+
 namespace {
 
 using nlohmann::ordered_json;

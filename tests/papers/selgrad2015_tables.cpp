@@ -11,6 +11,8 @@
 
 #include "measure.h"
 
+using namespace lensgraph;
+
 namespace {
 
 using nlohmann::ordered_json;

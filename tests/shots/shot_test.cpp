@@ -12,6 +12,8 @@
 #include "engine/image/metrics.h"
 #include "tests/support/gpu/gpu_test.h"
 
+namespace lensgraph {
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -134,3 +136,5 @@ INSTANTIATE_TEST_SUITE_P(RayTraced, Shots, testing::ValuesIn(kRows),
                          [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace
+
+}  // namespace lensgraph

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace support {
+namespace lensgraph::support {
 namespace {
 
 using Rgb = std::array<double, 3>;
@@ -68,4 +68,4 @@ std::vector<Rgb> filterTwoPass(const RgbzPicture& picture, const TwoPassFilterSe
   return filterAlong(columns, picture.width, picture.height, 1, 0, blur, settings);
 }
 
-}  // namespace support
+}  // namespace lensgraph::support

@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-namespace support {
+namespace lensgraph::support {
 
 /// A picture with the depth of each pixel. Row by row, from the top.
 struct RgbzPicture {
@@ -26,4 +26,4 @@ struct TwoPassFilterSettings {
 /// Precondition: all values finite (depth may be infinite), depths > 0.
 std::vector<std::array<double, 3>> filterTwoPass(const RgbzPicture& picture, const TwoPassFilterSettings& settings);
 
-}  // namespace support
+}  // namespace lensgraph::support

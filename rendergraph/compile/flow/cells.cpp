@@ -5,7 +5,7 @@
 
 #include "rendergraph/declare/declaration.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 Cells::Cells(const Declaration& declaration) : declaration_(declaration) {
   const auto resources = static_cast<uint32_t>(declaration.resources.size());
@@ -104,4 +104,4 @@ Subresources Cells::rangeOf(uint32_t resource, uint32_t cell) const {
   return range;
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -10,7 +10,7 @@
 
 #include "rendergraph/resource.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 struct Declaration;
 
@@ -88,4 +88,4 @@ class Cells {
   std::vector<uint32_t> mipCuts_, layerCuts_;
 };
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -8,7 +8,7 @@
 #include "rendergraph/compile/flow/dependencies.h"
 #include "rendergraph/declare/declaration.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 namespace {
 
@@ -103,4 +103,4 @@ Culling cull(const Declaration& declaration, const Cells& cells, std::span<const
   return result;
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

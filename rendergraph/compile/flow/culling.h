@@ -7,7 +7,7 @@
 
 #include "rendergraph/plan.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 struct Declaration;
 class Cells;
@@ -20,4 +20,4 @@ struct Culling {
 /// `sequence`: all passes in an order in which they can run.
 Culling cull(const Declaration& declaration, const Cells& cells, std::span<const uint32_t> sequence);
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -5,7 +5,7 @@
 #include "rendergraph/compile/flow/cells.h"
 #include "rendergraph/declare/declaration.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 Adjacency::Adjacency(std::span<const Edge> edges, uint32_t passes, By by)
     : starts_(passes + 1, 0), edges_(edges.size()) {
@@ -83,4 +83,4 @@ std::vector<Edge> orderingEdges(const Declaration& declaration, const Cells& cel
   return edges;
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 struct Declaration;
 class Cells;
@@ -38,4 +38,4 @@ std::vector<Edge> dataFlow(const Declaration& declaration, const Cells& cells);
 /// May name the same pair more than once.
 std::vector<Edge> orderingEdges(const Declaration& declaration, const Cells& cells, std::span<const uint8_t> alive);
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

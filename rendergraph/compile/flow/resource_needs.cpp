@@ -2,7 +2,7 @@
 
 #include "rendergraph/declare/declaration.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 std::vector<ResourceUse> findUses(const Declaration& declaration, std::span<const uint8_t> alive,
                                   const DeviceFacts& device) {
@@ -34,4 +34,4 @@ std::vector<ResourceUse> findUses(const Declaration& declaration, std::span<cons
   return uses;
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -7,7 +7,7 @@
 
 #include "rendergraph/compiler.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 struct Declaration;
 
@@ -22,4 +22,4 @@ struct ResourceUse {
 std::vector<ResourceUse> findUses(const Declaration& declaration, std::span<const uint8_t> alive,
                                   const DeviceFacts& device);
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

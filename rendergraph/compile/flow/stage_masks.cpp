@@ -1,6 +1,6 @@
 #include "rendergraph/compile/flow/stage_masks.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 VkPipelineStageFlags2 expandedStages(VkPipelineStageFlags2 stages) {
   constexpr VkPipelineStageFlags2 kPreRaster =
@@ -53,4 +53,4 @@ VkAccessFlags2 Visibility::uncovered(VkPipelineStageFlags2 stages, VkAccessFlags
   return result;
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -8,7 +8,7 @@
 
 #include "rendergraph/declare/access_table.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 VkPipelineStageFlags2 expandedStages(VkPipelineStageFlags2 stages);
 VkAccessFlags2 expandedAccess(VkAccessFlags2 access);
@@ -66,4 +66,4 @@ class Visibility {
   bool everything_ = false;
 };
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -6,7 +6,7 @@
 #include "rendergraph/compile/flow/cells.h"
 #include "rendergraph/declare/declaration.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 namespace {
 
@@ -105,4 +105,4 @@ std::vector<GraphError::Problem> findProblems(const Declaration& declaration, co
   return problems;
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

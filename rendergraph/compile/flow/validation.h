@@ -6,7 +6,7 @@
 #include "rendergraph/compiler.h"
 #include "rendergraph/error.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 class Cells;
 
@@ -14,4 +14,4 @@ class Cells;
 std::vector<GraphError::Problem> findProblems(const Declaration& declaration, const Cells& cells,
                                               const DeviceFacts& device);
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

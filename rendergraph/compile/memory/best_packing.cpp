@@ -9,7 +9,7 @@
 #include "rendergraph/compile/memory/packing.h"
 #include "rendergraph/compile/schedule/deterministic_random.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 namespace {
 
@@ -269,4 +269,4 @@ Packing packBest(std::span<const AliasItem> items) {
   return best;
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

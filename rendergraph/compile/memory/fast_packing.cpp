@@ -11,7 +11,7 @@
 
 #include "rendergraph/compile/memory/packing.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 namespace {
 
@@ -323,4 +323,4 @@ Packing packFast(std::span<const AliasItem> items) {
   return smaller(packShared(items), packSeparately(items));
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

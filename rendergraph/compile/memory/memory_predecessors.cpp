@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 namespace {
 
@@ -92,4 +92,4 @@ Occupants::Occupants(std::span<const Placement> placements, std::size_t resource
   }
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

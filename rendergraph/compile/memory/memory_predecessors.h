@@ -7,7 +7,7 @@
 
 #include "rendergraph/plan.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 /// Somebody whose last uses a resource's first use must wait for.
 struct Occupant {
@@ -32,4 +32,4 @@ class Occupants {
   std::vector<Occupant> all_;
 };
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 VkDeviceSize largestLiveSum(std::span<const AliasItem> items) {
   uint32_t steps = 0;
@@ -32,4 +32,4 @@ Packing packSeparately(std::span<const AliasItem> items) {
   return packing;
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

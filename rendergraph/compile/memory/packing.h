@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 struct AliasItem {
   VkDeviceSize size = 0;         ///< Bytes, at least 1.
@@ -39,4 +39,4 @@ constexpr VkDeviceSize alignUp(VkDeviceSize value, VkDeviceSize alignment) {
   return (value + alignment - 1) & ~(alignment - 1);
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

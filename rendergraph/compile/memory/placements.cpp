@@ -10,7 +10,7 @@
 #include "rendergraph/compile/schedule/submissions.h"
 #include "rendergraph/declare/declaration.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 namespace {
 
@@ -173,4 +173,4 @@ void placeResources(const Declaration& declaration, std::span<const ResourceUse>
   placer.pack(aliasing);
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

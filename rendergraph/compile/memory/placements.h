@@ -8,7 +8,7 @@
 #include "rendergraph/compiler.h"
 #include "rendergraph/plan.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 struct Schedule;
 struct Submissions;
@@ -17,4 +17,4 @@ struct Submissions;
 void placeResources(const Declaration& declaration, std::span<const ResourceUse> uses, std::span<const Sharing> sharing,
                     const Schedule& schedule, const Submissions& submissions, Aliasing aliasing, Plan& plan);
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -16,7 +16,7 @@
 #include "rendergraph/compile/schedule/live_bytes.h"
 #include "rendergraph/compile/schedule/ready_passes.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 namespace {
 
@@ -185,4 +185,4 @@ std::vector<uint32_t> groupPasses(const MemoryUse& use, std::span<const Edge> ed
   return std::move(best.groupOf);
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 class MemoryUse;
 struct Edge;
@@ -17,4 +17,4 @@ struct Edge;
 std::vector<uint32_t> groupPasses(const MemoryUse& use, std::span<const Edge> edges, std::span<const uint32_t> order,
                                   int64_t budget);
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

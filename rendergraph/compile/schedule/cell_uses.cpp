@@ -6,7 +6,7 @@
 #include "rendergraph/compile/schedule/schedule.h"
 #include "rendergraph/declare/declaration.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 Timeline::Timeline(const Declaration& declaration, const Cells& cells, const Schedule& schedule)
     : starts_(cells.count() + 1, 0) {
@@ -69,4 +69,4 @@ std::optional<CellUse> useAfterGraph(const DeclaredResource& resource, std::span
                  .needsContent = true};
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -12,7 +12,7 @@
 
 #include "rendergraph/plan.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 struct Declaration;
 struct DeclaredResource;
@@ -88,4 +88,4 @@ inline Epoch partOf(const Epoch& epoch, uint32_t queue) {
   return part;
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

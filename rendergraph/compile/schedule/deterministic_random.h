@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 class DeterministicRandom {
  public:
@@ -20,4 +20,4 @@ class DeterministicRandom {
   uint64_t state_ = 0;
 };
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

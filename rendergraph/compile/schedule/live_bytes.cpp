@@ -5,7 +5,7 @@
 
 #include "rendergraph/declare/declaration.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 MemoryUse::MemoryUse(const Declaration& declaration, std::span<const uint8_t> alive,
                      std::span<const VkDeviceSize> bytes)
@@ -63,4 +63,4 @@ int64_t peakBytes(const MemoryUse& use, std::span<const uint32_t> order) {
   return peak;
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 struct Declaration;
 
@@ -84,4 +84,4 @@ class LiveBytes {
 /// Largest number of bytes alive when the passes run in this order.
 int64_t peakBytes(const MemoryUse& use, std::span<const uint32_t> order);
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -13,7 +13,7 @@
 #include "rendergraph/compile/schedule/ready_passes.h"
 #include "rendergraph/declare/declaration.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 namespace {
 
@@ -177,4 +177,4 @@ PassOrder orderPasses(const Declaration& declaration, std::span<const uint8_t> a
   return {.passes = std::move(declared), .groups = {}};
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -7,7 +7,7 @@
 
 #include "rendergraph/compiler.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 struct Declaration;
 struct Edge;
@@ -29,4 +29,4 @@ struct PassOrder {
 PassOrder orderPasses(const Declaration& declaration, std::span<const uint8_t> alive, std::span<const Edge> edges,
                       std::span<const VkDeviceSize> bytes, const CompileOptions& options);
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

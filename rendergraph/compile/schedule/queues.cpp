@@ -5,7 +5,7 @@
 #include "rendergraph/compile/schedule/schedule.h"
 #include "rendergraph/declare/declaration.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 namespace {
 
@@ -113,4 +113,4 @@ std::vector<Sharing> sharingOf(const Declaration& declaration, const Cells& cell
   return result;
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -7,7 +7,7 @@
 
 #include "rendergraph/compiler.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 struct Declaration;
 struct Schedule;
@@ -37,4 +37,4 @@ inline bool hasOwner(Sharing sharing) {
 std::vector<Sharing> sharingOf(const Declaration& declaration, const Cells& cells, const Timeline& timeline,
                                const Schedule& schedule, std::span<const QueueFacts> queues);
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -3,7 +3,7 @@
 #include "rendergraph/compile/schedule/schedule.h"
 #include "rendergraph/declare/declaration.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 namespace {
 
@@ -75,4 +75,4 @@ void mergeRasterPasses(const Declaration& declaration, bool merge, Schedule& sch
   }
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

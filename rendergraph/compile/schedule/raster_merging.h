@@ -1,7 +1,7 @@
 // Adjacent raster passes that can share one rendering. Pure.
 #pragma once
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 struct Declaration;
 struct Schedule;
@@ -14,4 +14,4 @@ struct Schedule;
 /// to its attachments is ordered by rasterization order (Vulkan 1.3, 28.3), everything else would need a barrier.
 void mergeRasterPasses(const Declaration& declaration, bool merge, Schedule& schedule);
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -7,7 +7,7 @@
 
 #include "rendergraph/compile/flow/dependencies.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 class Waiting {
  public:
@@ -41,4 +41,4 @@ class Waiting {
   std::vector<uint32_t> count_, open_;
 };
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -6,7 +6,7 @@
 
 #include "rendergraph/compile/schedule/ordering.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 struct Schedule {
   std::vector<uint32_t> order;  ///< Passes by step.
@@ -24,4 +24,4 @@ struct Schedule {
   uint32_t timeOf(uint32_t step) const { return severalQueues ? step : PassOrder::timeOf(step, group); }
 };
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -1,6 +1,6 @@
 #include "rendergraph/compile/schedule/submission_order.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 QueueOrder::QueueOrder(const Plan& plan, uint32_t queues, std::vector<uint8_t> endsWithHost, bool overlappingFrames)
     : plan_(plan),
@@ -50,4 +50,4 @@ void QueueOrder::update() {
   }
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -8,7 +8,7 @@
 
 #include "rendergraph/plan.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 /// Vector clocks over the submissions of a plan. With overlapping frames, the frame before has submissions of its own.
 /// A moment is the end of one of them, or what was before the graph.
@@ -78,4 +78,4 @@ class QueueOrder {
   std::vector<std::vector<QueueWait>> waitsOf_;  // By queue.
 };
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

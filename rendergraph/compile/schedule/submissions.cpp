@@ -13,7 +13,7 @@
 #include "rendergraph/compile/schedule/schedule.h"
 #include "rendergraph/declare/declaration.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 namespace {
 
@@ -341,4 +341,4 @@ Submissions planSubmissions(const Declaration& declaration, const Cells& cells, 
   return result;
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -8,7 +8,7 @@
 #include "rendergraph/compile/schedule/queues.h"
 #include "rendergraph/plan.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 struct Declaration;
 struct Schedule;
@@ -29,4 +29,4 @@ struct Submissions {
 Submissions planSubmissions(const Declaration& declaration, const Cells& cells, const Timeline& timeline,
                             std::span<const Sharing> sharing, bool overlappingFrames, Schedule& schedule);
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

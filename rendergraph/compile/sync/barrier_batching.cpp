@@ -9,7 +9,7 @@
 #include "rendergraph/compile/schedule/schedule.h"
 #include "rendergraph/declare/declaration.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 namespace {
 
@@ -170,4 +170,4 @@ void placeBarriers(const Declaration& declaration, const CompileOptions& options
   Placing(declaration, options, schedule, queues, found, plan).run();
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -10,7 +10,7 @@
 #include "rendergraph/compiler.h"
 #include "rendergraph/plan.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 struct Declaration;
 struct Schedule;
@@ -33,4 +33,4 @@ bool isSplit(const FoundBarrier& found, const CompileOptions& options, const Sch
 void placeBarriers(const Declaration& declaration, const CompileOptions& options, const Schedule& schedule,
                    std::span<const QueueFacts> queues, std::vector<FoundBarrier>& found, Plan& plan);
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

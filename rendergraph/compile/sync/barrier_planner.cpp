@@ -25,7 +25,7 @@
 #include "rendergraph/compile/sync/range_merging.h"
 #include "rendergraph/declare/access_table.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 namespace {
 
@@ -322,4 +322,4 @@ void planBarriers(const BarrierInputs& inputs, Plan& plan) {
   BarrierPlanner(inputs, plan).run();
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

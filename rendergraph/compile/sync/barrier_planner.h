@@ -18,7 +18,7 @@
 #include "rendergraph/compile/sync/plan_barriers.h"
 #include "rendergraph/declare/declaration.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 /// A cell between two epochs.
 struct CellState {
@@ -80,4 +80,4 @@ class BarrierPlanner {
   std::optional<BarrierTrimming> trimming_;
 };
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -10,7 +10,7 @@
 
 #include "rendergraph/compile/sync/barrier_planner.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 namespace {
 
@@ -245,4 +245,4 @@ void BarrierPlanner::addCrossing(const Crossing& crossing, const Epoch& epoch, u
   found_.push_back({.step = use->step, .earliest = use->step, .barrier = barrier});
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

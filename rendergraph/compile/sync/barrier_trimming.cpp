@@ -7,7 +7,7 @@
 #include "rendergraph/compile/schedule/submissions.h"
 #include "rendergraph/declare/declaration.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 namespace {
 
@@ -115,4 +115,4 @@ void BarrierTrimming::trim(TimedBarrier& barrier) {
   trimBits(barrier, [](ImageBarrier& b) -> uint64_t& { return b.to.access; });
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -18,7 +18,7 @@
 #include "rendergraph/compile/sync/plan_barriers.h"
 #include "rendergraph/compile/sync/wait_minimizer.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 class BarrierTrimming {
  public:
@@ -54,4 +54,4 @@ class BarrierTrimming {
   std::vector<TimedBarrier> barriers_;  // Of the epoch.
 };
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -7,7 +7,7 @@
 #include "rendergraph/compile/flow/stage_masks.h"
 #include "rendergraph/declare/declaration.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 namespace {
 
@@ -260,4 +260,4 @@ void CellHazards::pass(Record& record, const TimedBarrier& barrier, WaitNeeds& n
   record.passed.push_back(std::move(passed));
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

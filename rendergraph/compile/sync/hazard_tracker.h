@@ -19,7 +19,7 @@
 #include "rendergraph/compile/sync/plan_barriers.h"
 #include "rendergraph/compile/sync/wait_minimizer.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 /// A barrier and when it takes effect.
 struct TimedBarrier {
@@ -132,4 +132,4 @@ class CellHazards {
   std::vector<EndStage> ends_;  // By resource.
 };
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

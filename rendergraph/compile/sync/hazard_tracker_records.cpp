@@ -9,7 +9,7 @@
 #include "rendergraph/compile/sync/hazard_tracker.h"
 #include "rendergraph/declare/declaration.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 namespace {
 
@@ -188,4 +188,4 @@ void CellHazards::addRecords(const Use& use, Moment moment, std::vector<Record>&
   }
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

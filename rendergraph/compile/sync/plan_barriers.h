@@ -7,7 +7,7 @@
 #include "rendergraph/compiler.h"
 #include "rendergraph/plan.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 struct Schedule;
 struct Submissions;
@@ -30,4 +30,4 @@ struct BarrierInputs {
 /// Precondition: passes, submissions, heaps and placements of the plan are complete.
 void planBarriers(const BarrierInputs& inputs, Plan& plan);
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

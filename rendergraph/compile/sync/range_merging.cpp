@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <tuple>
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 namespace {
 
@@ -68,4 +68,4 @@ void mergeRanges(std::vector<FoundBarrier>& barriers) {
       });
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

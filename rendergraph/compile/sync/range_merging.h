@@ -5,9 +5,9 @@
 
 #include "rendergraph/compile/sync/barrier_batching.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 /// All barriers concern one resource. Afterwards they are sorted by step.
 void mergeRanges(std::vector<FoundBarrier>& barriers);
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

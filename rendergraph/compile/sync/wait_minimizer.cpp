@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 namespace {
 
@@ -133,4 +133,4 @@ bool WaitNeeds::met(const QueueOrder& order, const Plan& plan) const {
   return std::all_of(needs_.begin(), needs_.end(), isMet) && std::all_of(ordered_.begin(), ordered_.end(), isOrdered);
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

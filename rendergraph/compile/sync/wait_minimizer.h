@@ -10,7 +10,7 @@
 #include "rendergraph/compile/schedule/submission_order.h"
 #include "rendergraph/plan.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 /// One stage of one wait.
 struct WaitStage {
@@ -50,4 +50,4 @@ class WaitNeeds {
   std::vector<Ordered> ordered_;
 };
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

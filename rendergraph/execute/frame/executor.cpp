@@ -7,7 +7,7 @@
 #include "rendergraph/execute/frame/frame_runner.h"
 #include "rendergraph/inspect/capture_builder.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 void ExportTable::take(const Declaration& declaration, const BindingTable& table) {
   serial = declaration.serial;
@@ -162,4 +162,4 @@ void Executor::clear() {
   state_->forget();
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -9,7 +9,7 @@
 
 #include "rendergraph/inspect/capture_builder.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 ExecutorState::ExecutorState(Backend& device, const ExecutorOptions& chosen)
     : backend(device), options(chosen), retained(device, graveyard), slots(chosen.framesInFlight), frame(device) {
@@ -273,4 +273,4 @@ void ExecutorState::forget() {
   graveyard.release(std::numeric_limits<uint64_t>::max());
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

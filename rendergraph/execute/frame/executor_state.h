@@ -15,7 +15,7 @@
 #include "rendergraph/executor.h"
 #include "rendergraph/jobs.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 /// Steps recorded into one command buffer, one after the other.
 struct Chunk {
@@ -93,4 +93,4 @@ struct ExecutorState {
   const SentSubmission* unfinished(const FrameSlot& slot) const;
 };
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

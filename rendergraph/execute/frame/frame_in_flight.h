@@ -10,7 +10,7 @@
 #include "rendergraph/execute/resources/unique_handle.h"
 #include "rendergraph/execute/resources/view_cache.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 /// What a frame exported, so that it can be looked up when the graph is gone.
 struct ExportTable {
@@ -51,4 +51,4 @@ struct FrameSlot {
   Clock::time_point start;
 };
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

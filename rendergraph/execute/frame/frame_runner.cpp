@@ -11,7 +11,7 @@
 
 #include "rendergraph/pass.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 namespace {
 
@@ -296,4 +296,4 @@ void Frame::record(VkCommandBuffer commands) {
   state_.lanes.front()->recordBarriers(plan.submissions.back().atEnd);
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -6,7 +6,7 @@
 
 #include "rendergraph/execute/frame/executor_state.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 class Frame {
  public:
@@ -43,4 +43,4 @@ class Frame {
   uint32_t threads_;
 };
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -6,7 +6,7 @@
 #include <thread>
 #include <vector>
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 struct ThreadPool::State {
   std::mutex mutex;
@@ -66,4 +66,4 @@ void ThreadPool::run(uint32_t count, Job job) {
   state_->done.wait(lock, [&] { return state_->unfinished == 0; });
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

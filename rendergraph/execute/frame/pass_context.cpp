@@ -5,7 +5,7 @@
 #include "rendergraph/execute/frame/step_recorder.h"
 #include "rendergraph/pass.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 namespace {
 
@@ -359,4 +359,4 @@ void PassContext::clearImage(Image to, const VkClearColorValue& value) {
   }
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -10,7 +10,7 @@
 #include "rendergraph/execute/resources/plan_resources.h"
 #include "rendergraph/plan.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 struct CachedPlan {
   uint64_t hash = 0;
@@ -57,4 +57,4 @@ class PlanCache {
   std::vector<std::unique_ptr<CachedPlan>> plans_;
 };
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

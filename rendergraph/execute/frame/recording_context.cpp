@@ -4,7 +4,7 @@
 #include "rendergraph/execute/resources/error_names.h"
 #include "rendergraph/execute/resources/view_cache.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 VkImageView FrameContext::viewOf(uint32_t resource, const Subresources& range, VkImageViewType type) {
   const DeclaredResource& declared = declaration->resources[resource];
@@ -15,4 +15,4 @@ VkImageView FrameContext::viewOf(uint32_t resource, const Subresources& range, V
   return namingResource(declared.name, [&] { return object.views->get(backend, desc, declared.name); });
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

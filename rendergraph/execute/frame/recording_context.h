@@ -13,7 +13,7 @@
 #include "rendergraph/executor.h"
 #include "rendergraph/plan.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 using Clock = std::chrono::steady_clock;
 
@@ -47,4 +47,4 @@ struct FrameContext {
   std::mutex views_;
 };
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

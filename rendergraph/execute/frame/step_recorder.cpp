@@ -6,7 +6,7 @@
 #include "rendergraph/execute/resources/error_names.h"
 #include "rendergraph/pass.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 namespace {
 
@@ -223,4 +223,4 @@ void StepRecorder::runHostPass(uint32_t step) {
   noteRecording(step, startMs);
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -8,7 +8,7 @@
 #include "rendergraph/backend.h"
 #include "rendergraph/execute/frame/recording_context.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 class StepRecorder {
  public:
@@ -53,4 +53,4 @@ class StepRecorder {
   std::vector<VkBufferMemoryBarrier2> bufferBarriers_;
 };
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

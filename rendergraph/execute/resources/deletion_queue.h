@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 class Graveyard {
  public:
@@ -31,4 +31,4 @@ class Graveyard {
   uint64_t lastUser_ = 0;
 };
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

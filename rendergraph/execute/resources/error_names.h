@@ -7,7 +7,7 @@
 
 #include "rendergraph/error.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 /// Runs work(); a GraphError out of it whose `part` is empty is given this name.
 template <class Work>
@@ -33,4 +33,4 @@ decltype(auto) namingPass(std::string_view name, Work&& work) {
   return naming(&GraphError::Problem::pass, name, work);
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

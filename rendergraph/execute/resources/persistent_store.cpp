@@ -7,7 +7,7 @@
 #include "rendergraph/declare/declaration.h"
 #include "rendergraph/execute/resources/error_names.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 namespace {
 
@@ -208,4 +208,4 @@ void RetainedStore::clear() {
   entries_.clear();
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -14,7 +14,7 @@
 #include "rendergraph/execute/resources/view_cache.h"
 #include "rendergraph/plan.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 struct Declaration;
 struct DeclaredResource;
@@ -83,4 +83,4 @@ class RetainedStore {
   std::vector<Current> current_;
 };
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

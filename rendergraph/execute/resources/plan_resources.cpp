@@ -6,7 +6,7 @@
 #include "rendergraph/declare/declaration.h"
 #include "rendergraph/execute/resources/error_names.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 namespace {
 
@@ -121,4 +121,4 @@ void PlanResources::bind(const Plan& plan, uint32_t slot, BindingTable& table) {
   }
 }
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

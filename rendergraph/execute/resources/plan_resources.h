@@ -14,7 +14,7 @@
 #include "rendergraph/execute/resources/view_cache.h"
 #include "rendergraph/plan.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 struct Declaration;
 
@@ -69,4 +69,4 @@ class PlanResources {
   std::vector<Objects> slots_;
 };
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 class ViewCache;
 
@@ -19,4 +19,4 @@ struct Bound {
 
 using BindingTable = std::vector<Bound>;  ///< By resource of the declaration.
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

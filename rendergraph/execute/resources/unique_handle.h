@@ -5,7 +5,7 @@
 
 #include "rendergraph/backend.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 template <class T, void (Backend::*Destroy)(T)>
 class Owned {
@@ -38,4 +38,4 @@ using OwnedRecorder = Owned<RecorderId, &Backend::destroyRecorder>;
 using OwnedTimeline = Owned<VkSemaphore, &Backend::destroyTimeline>;
 using OwnedTimestamps = Owned<VkQueryPool, &Backend::destroyTimestamps>;
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

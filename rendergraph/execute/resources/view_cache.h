@@ -8,7 +8,7 @@
 
 #include "rendergraph/execute/resources/unique_handle.h"
 
-namespace rendergraph {
+namespace lensgraph::rendergraph {
 
 class ViewCache {
  public:
@@ -27,4 +27,4 @@ class ViewCache {
   std::vector<std::pair<ViewDesc, OwnedView>> views_;
 };
 
-}  // namespace rendergraph
+}  // namespace lensgraph::rendergraph

@@ -7,7 +7,7 @@
 #include <set>
 #include <tuple>
 
-namespace cli {
+namespace lensgraph::cli {
 namespace {
 
 uint64_t distance(const CountChange& change) {
@@ -120,4 +120,4 @@ CaptureDiff diffCaptures(const CaptureFacts& before, const CaptureFacts& after) 
   return diff;
 }
 
-}  // namespace cli
+}  // namespace lensgraph::cli

@@ -8,7 +8,7 @@
 
 #include "samples/lensgraph/capture/capture_reader.h"
 
-namespace cli {
+namespace lensgraph::cli {
 
 /// A measured time in both captures. A difference is noise when the two ranges from smallest to largest frame meet; it
 /// is of unknown weight when one of the captures is of a single frame, which has no range.
@@ -51,4 +51,4 @@ CaptureDiff diffCaptures(const CaptureFacts& before, const CaptureFacts& after);
 std::string diffText(const CaptureDiff& diff, const std::string& before, const std::string& after);
 nlohmann::json diffJson(const CaptureDiff& diff);
 
-}  // namespace cli
+}  // namespace lensgraph::cli

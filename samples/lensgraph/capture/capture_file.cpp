@@ -11,7 +11,7 @@
 #include "generated/version.h"
 #include "passes/lens/physical_lens.h"
 
-namespace cli {
+namespace lensgraph::cli {
 
 using nlohmann::json;
 
@@ -88,4 +88,4 @@ json captureJson(const engine::DeviceDescription& device, const CaptureInput& in
   };
 }
 
-}  // namespace cli
+}  // namespace lensgraph::cli

@@ -13,7 +13,7 @@
 #include "samples/host/renderer.h"
 #include "samples/host/technique_choice.h"
 
-namespace cli {
+namespace lensgraph::cli {
 
 nlohmann::json toJson(const passes::ParameterValue& value);
 nlohmann::json toJson(const engine::DeviceDescription& device);
@@ -52,4 +52,4 @@ nlohmann::json captureJson(const engine::DeviceDescription& device, const Captur
                            const host::TechniqueChoice& choice, const host::Rendering& rendering,
                            const Measurement& measurement);
 
-}  // namespace cli
+}  // namespace lensgraph::cli

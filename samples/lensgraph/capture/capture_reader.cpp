@@ -6,7 +6,7 @@
 #include "samples/host/json_reader.h"
 #include "samples/lensgraph/capture/capture_file.h"
 
-namespace cli {
+namespace lensgraph::cli {
 namespace {
 
 using host::JsonNode;
@@ -152,4 +152,4 @@ CaptureFacts readCapture(const std::filesystem::path& file) {
   return facts;
 }
 
-}  // namespace cli
+}  // namespace lensgraph::cli

@@ -11,7 +11,7 @@
 
 #include "rendergraph/capture_series.h"
 
-namespace cli {
+namespace lensgraph::cli {
 
 /// A time that was measured, ms.
 using MeasuredTime = std::optional<rendergraph::Spread>;
@@ -39,4 +39,4 @@ struct CaptureFacts {
 /// Throws engine::Error (bad input): unreadable, no capture, of a version that is not known, or broken.
 CaptureFacts readCapture(const std::filesystem::path& file);
 
-}  // namespace cli
+}  // namespace lensgraph::cli

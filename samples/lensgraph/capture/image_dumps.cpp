@@ -11,7 +11,7 @@
 #include "rendergraph/trace.h"
 #include "samples/lensgraph/session.h"
 
-namespace cli {
+namespace lensgraph::cli {
 namespace {
 
 /// How many names an error line lists; the others are found with --dump-image list.
@@ -171,4 +171,4 @@ void Looks::write(const engine::DeviceDescription& device, const CaptureInput& i
   for (std::size_t i = 0; i < dumps_.size(); ++i) engine::writeImage(dumps_[i].file, tapped_.pictures[i]);
 }
 
-}  // namespace cli
+}  // namespace lensgraph::cli

@@ -13,7 +13,7 @@
 #include "samples/lensgraph/output.h"
 #include "samples/lensgraph/subcommands.h"
 
-namespace cli {
+namespace lensgraph::cli {
 
 /// One --dump-image. Throws engine::Error (bad input) unless it reads PASS/RESOURCE=FILE or
 /// PASS/RESOURCE[MIP,LAYER]=FILE; the first slash ends the pass, the first equals sign the image.
@@ -57,4 +57,4 @@ class Looks {
   host::Tapped tapped_;
 };
 
-}  // namespace cli
+}  // namespace lensgraph::cli

@@ -7,7 +7,7 @@
 #include "samples/lensgraph/session.h"
 #include "samples/lensgraph/subcommands.h"
 
-namespace cli {
+namespace lensgraph::cli {
 namespace {
 
 [[noreturn]] void failUsage(const std::string& field, const std::string& reason, const std::string& remedy) {
@@ -104,4 +104,4 @@ int runApply(const ApplyArguments& arguments, const GlobalArguments& global) {
   return session.finish();
 }
 
-}  // namespace cli
+}  // namespace lensgraph::cli

@@ -8,7 +8,7 @@
 #include "samples/lensgraph/capture/capture_file.h"
 #include "samples/lensgraph/subcommands.h"
 
-namespace cli {
+namespace lensgraph::cli {
 namespace {
 
 using nlohmann::json;
@@ -175,4 +175,4 @@ int runCaptureDiff(const CaptureDiffArguments& arguments) {
   return 0;
 }
 
-}  // namespace cli
+}  // namespace lensgraph::cli

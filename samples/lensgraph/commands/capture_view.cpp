@@ -9,7 +9,7 @@
 #include "samples/lensgraph/pages/capture_page.h"
 #include "samples/lensgraph/subcommands.h"
 
-namespace cli {
+namespace lensgraph::cli {
 namespace {
 
 constexpr char kPage[] =
@@ -75,4 +75,4 @@ int runCaptureView(const CaptureViewArguments& arguments) {
   return 0;
 }
 
-}  // namespace cli
+}  // namespace lensgraph::cli

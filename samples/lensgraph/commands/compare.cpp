@@ -8,7 +8,7 @@
 #include "samples/lensgraph/capture/capture_file.h"
 #include "samples/lensgraph/subcommands.h"
 
-namespace cli {
+namespace lensgraph::cli {
 
 int runCompare(const CompareArguments& arguments) {
   const auto picture = engine::readImage(arguments.picture);
@@ -47,4 +47,4 @@ int runCompare(const CompareArguments& arguments) {
   return 0;
 }
 
-}  // namespace cli
+}  // namespace lensgraph::cli

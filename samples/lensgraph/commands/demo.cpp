@@ -15,7 +15,7 @@
 #include "samples/lensgraph/session.h"
 #include "samples/lensgraph/subcommands.h"
 
-namespace cli {
+namespace lensgraph::cli {
 namespace {
 
 using std::filesystem::path;
@@ -177,4 +177,4 @@ int runDemo(const DemoArguments& arguments, const GlobalArguments& global) {
   return session.finish();
 }
 
-}  // namespace cli
+}  // namespace lensgraph::cli

@@ -9,7 +9,7 @@
 #include "samples/lensgraph/session.h"
 #include "samples/lensgraph/subcommands.h"
 
-namespace cli {
+namespace lensgraph::cli {
 
 int runGraph(const GraphArguments& arguments, const GlobalArguments& global) {
   host::Shot shot = host::readShot(arguments.shot);
@@ -44,4 +44,4 @@ int runGraph(const GraphArguments& arguments, const GlobalArguments& global) {
   return session.finish();
 }
 
-}  // namespace cli
+}  // namespace lensgraph::cli

@@ -7,7 +7,7 @@
 #include "samples/lensgraph/session.h"
 #include "samples/lensgraph/subcommands.h"
 
-namespace cli {
+namespace lensgraph::cli {
 namespace {
 
 void checkOutputs(const RenderArguments& arguments, const Looks& looks) {
@@ -66,4 +66,4 @@ int runRender(const RenderArguments& arguments, const GlobalArguments& global) {
   return session.finish();
 }
 
-}  // namespace cli
+}  // namespace lensgraph::cli

@@ -9,7 +9,7 @@
 #include "samples/lensgraph/session.h"
 #include "samples/lensgraph/subcommands.h"
 
-namespace cli {
+namespace lensgraph::cli {
 namespace {
 
 using nlohmann::ordered_json;
@@ -111,4 +111,4 @@ int runDevices(bool json) {
   return 0;
 }
 
-}  // namespace cli
+}  // namespace lensgraph::cli

@@ -4,7 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-namespace cli {
+namespace lensgraph::cli {
 
 /// Whether the program was built with the libraries that draw the page.
 bool canMakeCapturePages();
@@ -13,4 +13,4 @@ bool canMakeCapturePages();
 /// Precondition: canMakeCapturePages().
 std::string capturePage(const nlohmann::json& capture);
 
-}  // namespace cli
+}  // namespace lensgraph::cli

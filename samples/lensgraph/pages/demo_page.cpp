@@ -9,7 +9,7 @@
 #include "samples/lensgraph/error_map.h"
 #include "samples/lensgraph/pages/page_template.h"
 
-namespace cli {
+namespace lensgraph::cli {
 namespace {
 
 using nlohmann::json;
@@ -117,4 +117,4 @@ std::string demoTable(const DemoReport& report) {
   return table;
 }
 
-}  // namespace cli
+}  // namespace lensgraph::cli

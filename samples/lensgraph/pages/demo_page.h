@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace cli {
+namespace lensgraph::cli {
 
 struct DemoResult {
   std::string technique, title;
@@ -36,4 +36,4 @@ std::string demoPage(const DemoReport& report);
 /// The same as a table for the terminal.
 std::string demoTable(const DemoReport& report);
 
-}  // namespace cli
+}  // namespace lensgraph::cli

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace cli {
+namespace lensgraph::cli {
 namespace {
 
 using nlohmann::json;
@@ -128,4 +128,4 @@ std::string fillTemplate(std::string_view text, const json& values) {
   return out;
 }
 
-}  // namespace cli
+}  // namespace lensgraph::cli

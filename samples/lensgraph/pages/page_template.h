@@ -12,7 +12,7 @@
 #include <string>
 #include <string_view>
 
-namespace cli {
+namespace lensgraph::cli {
 
 /// & < > " ' as entities: safe in text and in quoted attributes.
 std::string escapeHtml(std::string_view text);
@@ -20,4 +20,4 @@ std::string escapeHtml(std::string_view text);
 /// Throws std::logic_error on a name without a value and on sections that do not match.
 std::string fillTemplate(std::string_view text, const nlohmann::json& values);
 
-}  // namespace cli
+}  // namespace lensgraph::cli

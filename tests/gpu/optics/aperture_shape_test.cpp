@@ -9,6 +9,8 @@
 #include "tests/support/gpu/spot.h"
 #include "tests/support/gpu/test_scenes.h"
 
+namespace lensgraph {
+
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -162,3 +164,5 @@ TEST_F(ApertureShape, CatsEyeCutsBokehInTheCornersAndLeavesTheMiddleRound) {
 }
 
 }  // namespace
+
+}  // namespace lensgraph

@@ -8,6 +8,8 @@
 #include "tests/support/gpu/spot.h"
 #include "tests/support/gpu/test_scenes.h"
 
+namespace lensgraph {
+
 namespace {
 
 using support::render;
@@ -89,3 +91,5 @@ TEST_F(CircleOfConfusion, TriangularApertureIsUprightBehindFocusAndInvertedInFro
 }
 
 }  // namespace
+
+}  // namespace lensgraph

@@ -19,6 +19,8 @@
 #include "tests/gpu/shaders/lens_cases.h"
 #include "tests/support/gpu/gpu_test.h"
 
+namespace lensgraph {
+
 namespace {
 
 using rendergraph::Usage;
@@ -202,3 +204,5 @@ TEST_F(LensOnDevice, ApertureFunctionsGiveTheSameValuesAsInCpp) {
 }
 
 }  // namespace
+
+}  // namespace lensgraph

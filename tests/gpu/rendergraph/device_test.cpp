@@ -9,6 +9,8 @@
 #include "engine/error.h"
 #include "tests/support/gpu/gpu_test.h"
 
+namespace lensgraph {
+
 namespace {
 
 using testing::HasSubstr;
@@ -68,3 +70,5 @@ TEST_F(Devices, ThatAreUnknownAreRefusedWithTheListOfThoseThereAre) {
 }
 
 }  // namespace
+
+}  // namespace lensgraph

@@ -10,6 +10,8 @@
 #include "tests/support/gpu/gpu_test.h"
 #include "tests/support/gpu/test_scenes.h"
 
+namespace lensgraph {
+
 namespace {
 
 using rendergraph::AccessState;
@@ -213,3 +215,5 @@ TEST_F(ExecutorOnDevice, ReconfigurationsLeaveNoMemoryBehind) {
 }
 
 }  // namespace
+
+}  // namespace lensgraph

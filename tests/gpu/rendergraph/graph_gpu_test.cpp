@@ -8,6 +8,8 @@
 #include "tests/support/gpu/gpu_test.h"
 #include "tests/support/gpu/test_scenes.h"
 
+namespace lensgraph {
+
 namespace {
 
 using rendergraph::Timing;
@@ -141,3 +143,5 @@ TEST_F(GraphOnDevice, APersistentImageIsZeroAtFirstAndLivesOn) {
 }
 
 }  // namespace
+
+}  // namespace lensgraph

@@ -6,6 +6,8 @@
 #include "tests/support/gpu/gpu_test.h"
 #include "tests/support/gpu/test_scenes.h"
 
+namespace lensgraph {
+
 namespace {
 
 class LookOnDevice : public support::GpuTest {};
@@ -85,3 +87,5 @@ TEST_F(LookOnDevice, ATapSeesWhatLaterPassesReplace) {
 }
 
 }  // namespace
+
+}  // namespace lensgraph

@@ -15,6 +15,8 @@
 #include "tests/support/gpu/device_buffers.h"
 #include "tests/support/gpu/gpu_test.h"
 
+namespace lensgraph {
+
 namespace {
 
 namespace multilayer = passes::multilayer_filtering;
@@ -214,3 +216,5 @@ TEST_F(FragmentLists, ThatFindNoRoomAreLeftOut) {
 }
 
 }  // namespace
+
+}  // namespace lensgraph

@@ -14,6 +14,8 @@
 #include "tests/support/gpu/gpu_test.h"
 #include "tests/support/gpu/test_scenes.h"
 
+namespace lensgraph {
+
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -333,3 +335,5 @@ TEST_F(Lit, ANormalMapLeansTheWayItsColoursSay) {
 }
 
 }  // namespace
+
+}  // namespace lensgraph

@@ -4,6 +4,8 @@
 #include "tests/support/gpu/gpu_test.h"
 #include "tests/support/gpu/test_scenes.h"
 
+namespace lensgraph {
+
 namespace {
 
 using support::render;
@@ -101,3 +103,5 @@ TEST_F(Transparency, ListsTooLongToSortAreCounted) {
 }
 
 }  // namespace
+
+}  // namespace lensgraph

@@ -11,6 +11,8 @@
 #include "tests/support/gpu/spot.h"
 #include "tests/support/gpu/test_scenes.h"
 
+namespace lensgraph {
+
 namespace {
 
 using support::render;
@@ -199,3 +201,5 @@ TEST_F(Accumulation, FocusOutsideTheSceneIsTheThinLensFormulaToo) {
 }
 
 }  // namespace
+
+}  // namespace lensgraph

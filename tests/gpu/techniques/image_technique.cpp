@@ -11,7 +11,7 @@
 #include "engine/vulkan/memory.h"
 #include "tests/support/gpu/gpu_test.h"
 
-namespace support {
+namespace lensgraph::support {
 namespace {
 
 using rendergraph::Usage;
@@ -106,4 +106,4 @@ ImageOutput ImageTechniqueRunner::run(std::string_view technique, const ImageInp
   return output;
 }
 
-}  // namespace support
+}  // namespace lensgraph::support

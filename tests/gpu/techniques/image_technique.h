@@ -10,7 +10,7 @@
 #include "rendergraph/executor.h"
 #include "shaders/shared/statistics.h"
 
-namespace support {
+namespace lensgraph::support {
 
 using Rgba = std::array<float, 4>;
 
@@ -41,4 +41,4 @@ class ImageTechniqueRunner {
   std::unique_ptr<Gpu> gpu_;
 };
 
-}  // namespace support
+}  // namespace lensgraph::support

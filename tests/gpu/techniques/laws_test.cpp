@@ -11,6 +11,8 @@
 #include "tests/support/gpu/gpu_test.h"
 #include "tests/support/gpu/test_scenes.h"
 
+namespace lensgraph {
+
 namespace {
 
 using passes::ParameterSet;
@@ -125,3 +127,5 @@ TEST_P(LawsOfApply, BrokenPixelsOfAPictureDoNotComeOut) {
 INSTANTIATE_TEST_SUITE_P(Apertures, LawsOfApply, testing::Values(0.0, 0.05));
 
 }  // namespace
+
+}  // namespace lensgraph

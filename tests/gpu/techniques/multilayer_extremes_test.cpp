@@ -8,6 +8,8 @@
 #include "multilayer_filtering_fixture.h"
 #include "tests/support/gpu/spot.h"
 
+namespace lensgraph {
+
 namespace {
 
 using namespace multilayer_test;
@@ -175,3 +177,5 @@ TEST_F(MultilayerFiltering, AnEmptySceneIsItsBackground) {
 }
 
 }  // namespace
+
+}  // namespace lensgraph

@@ -11,7 +11,7 @@
 #include "tests/support/gpu/gpu_test.h"
 #include "tests/support/gpu/test_scenes.h"
 
-namespace multilayer_test {
+namespace lensgraph::multilayer_test {
 
 using passes::ParameterSet;
 using support::render;
@@ -63,4 +63,4 @@ inline double distanceFrom(const engine::FloatImage& picture, const glm::vec3& c
   return largest;
 }
 
-}  // namespace multilayer_test
+}  // namespace lensgraph::multilayer_test

@@ -7,6 +7,8 @@
 #include "multilayer_filtering_fixture.h"
 #include "tests/support/gpu/spot.h"
 
+namespace lensgraph {
+
 namespace {
 
 using namespace multilayer_test;
@@ -325,3 +327,5 @@ TEST_F(MultilayerFiltering, TheBorderHoldsWhatBlursIntoThePicture) {
 }
 
 }  // namespace
+
+}  // namespace lensgraph

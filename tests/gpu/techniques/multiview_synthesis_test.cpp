@@ -10,6 +10,8 @@
 #include "tests/support/gpu/spot.h"
 #include "tests/support/gpu/test_scenes.h"
 
+namespace lensgraph {
+
 namespace {
 
 using passes::ParameterSet;
@@ -377,3 +379,5 @@ TEST_F(MultiviewSynthesis, AnEmptySceneIsItsBackground) {
 }
 
 }  // namespace
+
+}  // namespace lensgraph

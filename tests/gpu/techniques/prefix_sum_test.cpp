@@ -10,6 +10,8 @@
 #include "tests/support/gpu/device_buffers.h"
 #include "tests/support/gpu/gpu_test.h"
 
+namespace lensgraph {
+
 namespace {
 
 constexpr uint32_t kBefore = 3;  // values that are not summed
@@ -56,3 +58,5 @@ TEST_F(PrefixSum, WrapsAsIntegersDo) {
 }
 
 }  // namespace
+
+}  // namespace lensgraph

@@ -9,6 +9,8 @@
 #include "tests/support/gpu/gpu_test.h"
 #include "tests/support/two_pass_filter_reference.h"
 
+namespace lensgraph {
+
 namespace {
 
 using support::ImageInput;
@@ -260,3 +262,5 @@ TEST_F(TwoPassFilterGpu, AFocusPullIsContinuous) {
 }
 
 }  // namespace
+
+}  // namespace lensgraph

@@ -2,7 +2,7 @@
 
 #include "tests/support/gpu/gpu_test.h"
 
-namespace support {
+namespace lensgraph::support {
 
 using rendergraph::Usage;
 
@@ -35,4 +35,4 @@ rendergraph::Buffer declareReadBack(rendergraph::Graph& graph, rendergraph::Buff
   return bytes;
 }
 
-}  // namespace support
+}  // namespace lensgraph::support

@@ -9,7 +9,7 @@
 #include "rendergraph/executor.h"
 #include "rendergraph/graph.h"
 
-namespace support {
+namespace lensgraph::support {
 
 /// A buffer on support::device() with this content, imported into a graph for shaders to read and write. It lives until
 /// the frame has been executed.
@@ -33,4 +33,4 @@ std::vector<T> contentOf(const rendergraph::Executor& executor, rendergraph::Buf
   return values;
 }
 
-}  // namespace support
+}  // namespace lensgraph::support

@@ -9,7 +9,7 @@
 
 #include "engine/image/image_io.h"
 
-namespace support {
+namespace lensgraph::support {
 namespace {
 
 /// Destroys the device at the end of the program's tests and checks what the layers say of that (leaked objects).
@@ -72,4 +72,4 @@ void keepPicture(const engine::FloatImage& picture, const std::string& name) {
   if (folder != nullptr) engine::writeImage(std::filesystem::path(folder) / (name + ".png"), picture);
 }
 
-}  // namespace support
+}  // namespace lensgraph::support

@@ -6,7 +6,7 @@
 #include "engine/vulkan/device.h"
 #include "samples/host/renderer.h"
 
-namespace support {
+namespace lensgraph::support {
 
 /// The validated device of this program, made on first use.
 engine::Device& device();
@@ -26,4 +26,4 @@ std::size_t nonFiniteCount(const engine::FloatImage& picture);
 /// Writes a PNG into the folder named by the environment variable LENSGRAPH_TEST_PICTURES, if set: to look at.
 void keepPicture(const engine::FloatImage& picture, const std::string& name);
 
-}  // namespace support
+}  // namespace lensgraph::support

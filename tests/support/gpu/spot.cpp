@@ -6,7 +6,7 @@
 
 #include "tests/support/gpu/test_scenes.h"
 
-namespace support {
+namespace lensgraph::support {
 
 Spot measureSpot(const engine::FloatImage& picture) {
   const auto each = [&](auto&& visit) {
@@ -53,4 +53,4 @@ double thinLensRadius(const host::Shot& shot, double depth) {
   return pixelsPerTangent(shot) * shot.lens.apertureRadius * (1.0 / shot.lens.focusDistance - 1.0 / depth);
 }
 
-}  // namespace support
+}  // namespace lensgraph::support

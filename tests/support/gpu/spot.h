@@ -5,7 +5,7 @@
 #include "engine/scene/scene.h"
 #include "samples/host/shot.h"
 
-namespace support {
+namespace lensgraph::support {
 
 /// Moments of the red channel; pixel centres at +0.5.
 struct Spot {
@@ -29,4 +29,4 @@ double pixelsPerTangent(const host::Shot& shot);
 /// Signed blur radius by the thin-lens formula, px, in double and without lens.h.
 double thinLensRadius(const host::Shot& shot, double depth);
 
-}  // namespace support
+}  // namespace lensgraph::support

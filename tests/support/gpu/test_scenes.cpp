@@ -1,6 +1,6 @@
 #include "tests/support/gpu/test_scenes.h"
 
-namespace support {
+namespace lensgraph::support {
 
 uint32_t addMaterial(engine::Scene& scene, const glm::vec4& color) {
   engine::Material material;
@@ -70,4 +70,4 @@ engine::Scene constantScene(const glm::vec3& color) {
   return scene;
 }
 
-}  // namespace support
+}  // namespace lensgraph::support

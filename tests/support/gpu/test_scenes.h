@@ -8,7 +8,7 @@
 #include "engine/scene/scene.h"
 #include "samples/host/shot.h"
 
-namespace support {
+namespace lensgraph::support {
 
 /// An unlit material of this colour; alpha below 1 blends.
 uint32_t addMaterial(engine::Scene& scene, const glm::vec4& color);
@@ -29,4 +29,4 @@ engine::Scene layeredScene();
 /// A wall of one colour everywhere, in three slanted pieces with the same colour behind.
 engine::Scene constantScene(const glm::vec3& color);
 
-}  // namespace support
+}  // namespace lensgraph::support

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+namespace lensgraph {
+
 namespace {
 
 TEST(Error, JoinsItsPartsInOneLine) {
@@ -21,3 +23,5 @@ TEST(Error, NeverSpansTwoLines) {
 }
 
 }  // namespace
+
+}  // namespace lensgraph

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace test {
+namespace lensgraph::test {
 
 class TemporaryFolder {
  public:
@@ -51,4 +51,4 @@ inline std::vector<uint8_t> readBytes(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-}  // namespace test
+}  // namespace lensgraph::test

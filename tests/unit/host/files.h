@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+namespace lensgraph {
+
 class TestFolder {
  public:
   TestFolder() {
@@ -32,3 +34,5 @@ class TestFolder {
  private:
   std::filesystem::path path_;
 };
+
+}  // namespace lensgraph

@@ -10,6 +10,8 @@
 #include "engine/error.h"
 #include "files.h"
 
+namespace lensgraph {
+
 namespace {
 
 using nlohmann::json;
@@ -310,3 +312,5 @@ TEST(Shots, WithRayTracedPicturesAreRead) {
 }
 
 }  // namespace
+
+}  // namespace lensgraph

@@ -9,6 +9,8 @@
 #include "engine/error.h"
 #include "files.h"
 
+namespace lensgraph {
+
 namespace {
 
 using testing::HasSubstr;
@@ -120,3 +122,5 @@ TEST(Technique, UnknownOnesAreRefusedWithTheNearestName) {
 }
 
 }  // namespace
+
+}  // namespace lensgraph

@@ -9,6 +9,8 @@
 
 #include "engine/error.h"
 
+namespace lensgraph {
+
 namespace {
 
 using testing::ElementsAre;
@@ -58,3 +60,5 @@ TEST(Texels, OfFormatsThatAreNoPictureAreRefused) {
 }
 
 }  // namespace
+
+}  // namespace lensgraph

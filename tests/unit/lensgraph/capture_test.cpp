@@ -12,6 +12,8 @@
 #include "samples/lensgraph/capture/capture_reader.h"
 #include "samples/lensgraph/pages/capture_page.h"
 
+namespace lensgraph {
+
 namespace {
 
 using cli::PassChange;
@@ -203,3 +205,5 @@ TEST_F(Captures, PageHoldsTheCaptureAndNeedsNothingElse) {
 }
 
 }  // namespace
+
+}  // namespace lensgraph

@@ -10,6 +10,8 @@
 #include "samples/lensgraph/pages/demo_page.h"
 #include "samples/lensgraph/pages/page_template.h"
 
+namespace lensgraph {
+
 namespace {
 
 using cli::fillTemplate;
@@ -108,3 +110,5 @@ TEST(ErrorMap, ShowsTheDifferingPixelAlone) {
 }
 
 }  // namespace
+
+}  // namespace lensgraph

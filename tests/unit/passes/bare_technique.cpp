@@ -1,5 +1,7 @@
 #include "bare_technique.h"
 
+namespace lensgraph {
+
 namespace {
 
 constexpr rendergraph::AccessState kSampled = {.stages = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
@@ -37,3 +39,5 @@ void declareBare(rendergraph::Graph& graph, const passes::Technique& technique, 
   if (out.standardError) graph.exportImage(out.standardError, kSampled);
   if (out.statistics) graph.exportBuffer(out.statistics, kHostRead);
 }
+
+}  // namespace lensgraph

@@ -6,6 +6,8 @@
 #include "passes/registry/registry.h"
 #include "rendergraph/graph.h"
 
+namespace lensgraph {
+
 struct BareOptions {
   VkExtent2D extent = {640, 360};  ///< px.
   passes::ParameterSet parameters = {};
@@ -16,3 +18,5 @@ struct BareOptions {
 /// `scene` is what the recordings refer to; it must outlive the graph.
 void declareBare(rendergraph::Graph& graph, const passes::Technique& technique, const BareOptions& options,
                  passes::SceneDraw& scene);
+
+}  // namespace lensgraph

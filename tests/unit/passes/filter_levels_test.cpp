@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+namespace lensgraph {
+
 namespace {
 
 using namespace passes::multilayer_filtering;
@@ -202,3 +204,5 @@ TEST(FilterLevels, StayWithinBoundsAtAnyBlur) {
 }
 
 }  // namespace
+
+}  // namespace lensgraph

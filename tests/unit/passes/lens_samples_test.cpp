@@ -8,6 +8,8 @@
 #include <numbers>
 #include <set>
 
+namespace lensgraph {
+
 namespace {
 
 using passes::LensPattern;
@@ -341,3 +343,5 @@ TEST(Aperture, AGaussianLensHasNeitherRingsNorCatsEye) {
 }
 
 }  // namespace
+
+}  // namespace lensgraph

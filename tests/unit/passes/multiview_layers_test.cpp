@@ -8,6 +8,8 @@
 #include "passes/multiview_synthesis/layers.h"
 #include "passes/multiview_synthesis/lens_rays.h"
 
+namespace lensgraph {
+
 namespace {
 
 using namespace passes::multiview_synthesis;
@@ -159,3 +161,5 @@ TEST(LensRays, NoiseKeepsTheSizeOfTheBlur) {
 }
 
 }  // namespace
+
+}  // namespace lensgraph

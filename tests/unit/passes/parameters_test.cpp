@@ -6,6 +6,8 @@
 
 #include <limits>
 
+namespace lensgraph {
+
 namespace {
 
 using passes::ParameterSet;
@@ -170,3 +172,5 @@ TEST(Parameters, ValuesPrintAsPeopleWriteThem) {
 }
 
 }  // namespace
+
+}  // namespace lensgraph

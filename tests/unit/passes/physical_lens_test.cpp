@@ -1,5 +1,7 @@
 // A physical lens against the thin-lens formulas in long double, over the extremes that pictures are asked
 // for.
+#include "passes/lens/physical_lens.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,7 +10,7 @@
 #include <numbers>
 #include <random>
 
-#include "passes/lens/physical_lens.h"
+namespace lensgraph {
 
 namespace {
 
@@ -268,3 +270,5 @@ TEST(Lens, TheApertureShapeIsTaken) {
 }
 
 }  // namespace
+
+}  // namespace lensgraph

@@ -13,6 +13,8 @@
 #include "rendergraph/compiler.h"
 #include "rendergraph/dump.h"
 
+namespace lensgraph {
+
 namespace {
 
 struct Snapshot {
@@ -86,3 +88,5 @@ TEST(Snapshots, ExistForEveryTechnique) {
 }
 
 }  // namespace
+
+}  // namespace lensgraph

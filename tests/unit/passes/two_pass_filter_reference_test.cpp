@@ -5,6 +5,8 @@
 
 #include <limits>
 
+namespace lensgraph {
+
 namespace {
 
 using support::RgbzPicture;
@@ -77,3 +79,5 @@ TEST(TwoPassFilterReference, BothDirectionsAreFiltered) {
 }
 
 }  // namespace
+
+}  // namespace lensgraph

@@ -10,6 +10,8 @@
 #include "rendergraph/declare/declaration.h"
 #include "rendergraph/error.h"
 
+namespace lensgraph {
+
 namespace {
 
 using testing::ElementsAre;
@@ -144,3 +146,5 @@ TEST(TwoPassFilter, ImagesOfAnotherSizeAreRefused) {
 }
 
 }  // namespace
+
+}  // namespace lensgraph

@@ -9,6 +9,8 @@
 
 #include "engine/error.h"
 
+namespace lensgraph {
+
 namespace {
 
 /// Irradiance / π of a direction, as the shader evaluates it.
@@ -54,3 +56,5 @@ TEST(Environment, BrokenTexelsAreBlackAndMipsReachOneTexel) {
 }
 
 }  // namespace
+
+}  // namespace lensgraph

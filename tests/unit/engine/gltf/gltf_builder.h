@@ -9,7 +9,7 @@
 
 #include "temporary_folder.h"
 
-namespace test {
+namespace lensgraph::test {
 
 using Json = nlohmann::json;
 
@@ -128,4 +128,4 @@ inline GltfBuilder triangleFile() {
   return builder;
 }
 
-}  // namespace test
+}  // namespace lensgraph::test

@@ -7,6 +7,8 @@
 #include "engine/gltf/load_gltf.h"
 #include "gltf_builder.h"
 
+namespace lensgraph {
+
 namespace {
 
 using engine::Primitive;
@@ -253,3 +255,5 @@ TEST(GltfGeometry, SkinsAreBakedInTheirRestPose) {
 }
 
 }  // namespace
+
+}  // namespace lensgraph

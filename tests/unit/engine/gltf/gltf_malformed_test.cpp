@@ -10,6 +10,8 @@
 #include "engine/gltf/load_gltf.h"
 #include "gltf_builder.h"
 
+namespace lensgraph {
+
 namespace {
 
 using engine::Scene;
@@ -312,3 +314,5 @@ TEST(GltfMalformed, RandomDamageNeverCrashes) {
 }
 
 }  // namespace
+
+}  // namespace lensgraph

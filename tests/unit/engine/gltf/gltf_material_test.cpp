@@ -7,6 +7,8 @@
 #include "gltf_builder.h"
 #include "raw_png.h"
 
+namespace lensgraph {
+
 namespace {
 
 using engine::ColorEncoding;
@@ -284,3 +286,5 @@ TEST(GltfImage, NoPixels) {
 }
 
 }  // namespace
+
+}  // namespace lensgraph

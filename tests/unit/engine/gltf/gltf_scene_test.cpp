@@ -9,6 +9,8 @@
 #include "engine/gltf/load_gltf.h"
 #include "gltf_builder.h"
 
+namespace lensgraph {
+
 namespace {
 
 using engine::Placement;
@@ -257,3 +259,5 @@ TEST(Scene, FindsProblemsOfScenesMadeByHand) {
 }
 
 }  // namespace
+
+}  // namespace lensgraph

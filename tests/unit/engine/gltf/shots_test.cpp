@@ -12,6 +12,8 @@
 #include "engine/image/metrics.h"
 #include "temporary_folder.h"
 
+namespace lensgraph {
+
 namespace {
 
 using engine::Scene;
@@ -140,3 +142,5 @@ TEST_F(Shots, WithoutApertureTheTruthEqualsThePinholePicture) {
 }
 
 }  // namespace
+
+}  // namespace lensgraph

@@ -13,6 +13,8 @@
 #include "raw_png.h"
 #include "temporary_folder.h"
 
+namespace lensgraph {
+
 namespace {
 
 using engine::FloatImage;
@@ -287,3 +289,5 @@ TEST(ImageIo, HeaderThatClaimsTooMuchIsRefusedBeforeMemoryIs) {
 }
 
 }  // namespace
+
+}  // namespace lensgraph

@@ -9,6 +9,8 @@
 
 #include "engine/error.h"
 
+namespace lensgraph {
+
 namespace {
 
 using engine::compareImages;
@@ -236,3 +238,5 @@ TEST(Metrics, OnePixelIsEnough) {
 }
 
 }  // namespace
+
+}  // namespace lensgraph

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace test {
+namespace lensgraph::test {
 
 inline void appendBigEndian(std::vector<uint8_t>& bytes, uint32_t value) {
   for (int shift = 24; shift >= 0; shift -= 8) bytes.push_back(static_cast<uint8_t>(value >> shift));
@@ -69,4 +69,4 @@ inline std::vector<uint8_t> rawPng(uint32_t width, uint32_t height, int depth, P
   return png;
 }
 
-}  // namespace test
+}  // namespace lensgraph::test

@@ -11,6 +11,8 @@
 
 #include "engine/error.h"
 
+namespace lensgraph {
+
 namespace {
 
 using engine::Camera;
@@ -123,3 +125,5 @@ TEST(Camera, UnknownNameListsTheOnesThereAre) {
 }
 
 }  // namespace
+
+}  // namespace lensgraph

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+namespace lensgraph {
+
 namespace {
 
 using engine::Scene;
@@ -112,3 +114,5 @@ TEST(VisibleRange, IsInMetres) {
 }
 
 }  // namespace
+
+}  // namespace lensgraph

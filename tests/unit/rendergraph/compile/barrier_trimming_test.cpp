@@ -12,6 +12,8 @@
 #include "rendergraph/graph.h"
 #include "support/test_device.h"
 
+namespace lensgraph {
+
 using namespace rendergraph;
 
 namespace {
@@ -119,3 +121,5 @@ TEST_F(Trimming, ReadsOnAnotherQueueGoOnIntoTheNextFrame) {
   graph.exportBuffer(kept, {});
   exactPlan();
 }
+
+}  // namespace lensgraph

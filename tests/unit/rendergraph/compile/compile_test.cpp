@@ -10,6 +10,8 @@
 #include "rendergraph/graph.h"
 #include "support/random_graph.h"
 
+namespace lensgraph {
+
 using namespace rendergraph;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -367,3 +369,5 @@ TEST(Graph, DestroysRecordingsOnResetAndAtItsEnd) {
   }
   EXPECT_EQ(living, 0);
 }
+
+}  // namespace lensgraph

@@ -17,6 +17,8 @@
 #include "support/corpus.h"
 #include "support/random_graph.h"
 
+namespace lensgraph {
+
 using namespace rendergraph;
 
 namespace {
@@ -170,3 +172,5 @@ TEST(Ordering, BudgetTradesBatchesForBytes) {
   // Two blocks of seven levels and a join, of which the second is cut short; then the last pass and the export.
   EXPECT_LE(few, 17u);
 }
+
+}  // namespace lensgraph

@@ -12,6 +12,8 @@
 #include "support/corpus.h"
 #include "support/random_graph.h"
 
+namespace lensgraph {
+
 using namespace rendergraph;
 
 namespace {
@@ -143,3 +145,5 @@ TEST(Aliasing, ManyThatLiveThroughoutAreStackedAtOnce) {
   EXPECT_EQ(packBest(items).size, largestLiveSum(items));
   EXPECT_EQ(packFast(items).size, largestLiveSum(items));
 }
+
+}  // namespace lensgraph

@@ -10,6 +10,8 @@
 #include "rendergraph/memory_notes.h"
 #include "support/test_device.h"
 
+namespace lensgraph {
+
 using namespace rendergraph;
 using testing::HasSubstr;
 
@@ -193,3 +195,5 @@ TEST(MemoryNotes, SayWithWhomOrWhyNot) {
   EXPECT_THAT(memoryNotes(graph.declaration(), apart)[a.resource], HasSubstr("for it alone"));
   EXPECT_EQ(apart.memory.peakBytes, apart.memory.unaliasedBytes);
 }
+
+}  // namespace lensgraph

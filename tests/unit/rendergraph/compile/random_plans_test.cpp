@@ -10,6 +10,8 @@
 #include "support/random_graph.h"
 #include "support/test_device.h"
 
+namespace lensgraph {
+
 using namespace rendergraph;
 
 namespace {
@@ -145,3 +147,5 @@ TEST(RandomPlans, BatchesAreTheFewest) {
     ASSERT_EQ(plan.barrierBatches, plan_checker::fewestBatches(random.setting(plan))) << "seed " << seed;
   }
 }
+
+}  // namespace lensgraph

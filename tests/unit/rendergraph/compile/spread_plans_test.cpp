@@ -12,6 +12,8 @@
 #include "support/random_graph.h"
 #include "support/test_device.h"
 
+namespace lensgraph {
+
 using namespace rendergraph;
 
 namespace {
@@ -102,3 +104,5 @@ TEST(SpreadPlans, TotalOrderIsEnough) {
             << " were missed by uses\n";
   EXPECT_GT(found, weakened / 10);
 }
+
+}  // namespace lensgraph

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+namespace lensgraph {
+
 TEST(Handle, DefaultIsNoResource) {
   EXPECT_FALSE(rendergraph::Image{});
 }
+
+}  // namespace lensgraph

@@ -7,6 +7,8 @@
 #include "rendergraph/executor.h"
 #include "support/fake_backend.h"
 
+namespace lensgraph {
+
 using namespace rendergraph;
 using testing::ElementsAre;
 using testing::IsEmpty;
@@ -149,3 +151,5 @@ TEST_F(Taps, ChoicesAreTheImagesThatPassesWrite) {
 }
 
 }  // namespace
+
+}  // namespace lensgraph

@@ -8,6 +8,8 @@
 #include "rendergraph/declare/declaration.h"
 #include "rendergraph/graph.h"
 
+namespace lensgraph {
+
 using namespace rendergraph;
 using testing::HasSubstr;
 
@@ -360,3 +362,5 @@ TEST(Misuse, EveryKindHasAName) {
     EXPECT_NE(nameOf(static_cast<Misuse>(i)), "?");
   }
 }
+
+}  // namespace lensgraph

@@ -7,6 +7,8 @@
 #include "rendergraph/executor.h"
 #include "support/fake_backend.h"
 
+namespace lensgraph {
+
 using namespace rendergraph;
 using testing::HasSubstr;
 
@@ -94,3 +96,5 @@ TEST(PassContext, AnyVersionOfADeclaredResourceWillDo) {
   pass.record([=](PassContext& context) { EXPECT_EQ(context.image(before), context.image(after)); });
   executor.execute(graph);
 }
+
+}  // namespace lensgraph

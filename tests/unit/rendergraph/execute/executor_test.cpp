@@ -7,6 +7,8 @@
 
 #include "support/executor_support.h"
 
+namespace lensgraph {
+
 using namespace executor_test;
 using namespace rendergraph;
 using testing::ElementsAre;
@@ -485,3 +487,5 @@ TEST(Executor, CopiesTheDeclaredRanges) {
   EXPECT_EQ(backend.count("copy image mip 2"), 1u);
   EXPECT_EQ(backend.count("copy image mip 0"), 0u);
 }
+
+}  // namespace lensgraph

@@ -1,6 +1,8 @@
 // Failures at every call that can fail: an error in words, nothing lost, and the executor goes on.
 #include "support/executor_support.h"
 
+namespace lensgraph {
+
 using namespace rendergraph;
 using namespace executor_test;
 using testing::HasSubstr;
@@ -167,3 +169,5 @@ TEST(Failures, AThousandReconfigurationsLeaveNothingBehind) {
     expectClean(backend);
   }
 }
+
+}  // namespace lensgraph

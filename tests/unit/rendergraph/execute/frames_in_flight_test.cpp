@@ -3,6 +3,8 @@
 
 #include "support/executor_support.h"
 
+namespace lensgraph {
+
 using namespace rendergraph;
 using namespace executor_test;
 using testing::Each;
@@ -233,3 +235,5 @@ TEST(FramesInFlight, OtherNumbersAreRefused) {
     EXPECT_EQ(misuseOf([&] { Executor(backend, {.framesInFlight = frames}); }), Misuse::overLimit);
   }
 }
+
+}  // namespace lensgraph

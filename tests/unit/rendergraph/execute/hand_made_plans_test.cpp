@@ -4,6 +4,8 @@
 #include "rendergraph/execute/frame/frame_runner.h"
 #include "support/executor_support.h"
 
+namespace lensgraph {
+
 using namespace rendergraph;
 using namespace executor_test;
 using testing::ElementsAre;
@@ -259,3 +261,5 @@ TEST(CarriedOut, DedicatedMemoryHoldsOneResourceAndIsNeverPooled) {
   EXPECT_THAT(backend.living, IsEmpty());
   expectClean(backend);
 }
+
+}  // namespace lensgraph

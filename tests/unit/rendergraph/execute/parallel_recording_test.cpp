@@ -6,6 +6,8 @@
 
 #include "support/executor_support.h"
 
+namespace lensgraph {
+
 using namespace rendergraph;
 using namespace executor_test;
 using testing::HasSubstr;
@@ -144,3 +146,5 @@ TEST(ThreadPool, CallsEachNumberOnce) {
     for (const auto& n : calls) EXPECT_EQ(n, 1);
   }
 }
+
+}  // namespace lensgraph

@@ -5,6 +5,8 @@
 #include "allocation_count.h"
 #include "support/executor_support.h"
 
+namespace lensgraph {
+
 using namespace rendergraph;
 using namespace executor_test;
 using test_support::allocationsSoFar;
@@ -50,3 +52,5 @@ TEST(SteadyFrame, TheCountCountsEveryForm) {
   operator delete[](operator new[](1, kAligned, std::nothrow), kAligned, std::nothrow);
   EXPECT_EQ(allocationsSoFar() - before, 8u);
 }
+
+}  // namespace lensgraph

@@ -11,6 +11,8 @@
 #include "support/fake_backend.h"
 #include "support/random_graph.h"
 
+namespace lensgraph {
+
 using namespace rendergraph;
 
 namespace {
@@ -61,3 +63,5 @@ TEST(Threads, ExecuteSideBySide) {
   first.join();
   second.join();
 }
+
+}  // namespace lensgraph

@@ -11,6 +11,8 @@
 #include "rendergraph/executor.h"
 #include "support/fake_backend.h"
 
+namespace lensgraph {
+
 using namespace rendergraph;
 using nlohmann::json;
 using testing::ElementsAre;
@@ -219,3 +221,5 @@ TEST_F(Captured, JsonHoldsWhatAPageNeeds) {
 }
 
 }  // namespace
+
+}  // namespace lensgraph

@@ -10,6 +10,8 @@
 #include "rendergraph/declare/declaration.h"
 #include "rendergraph/graph.h"
 
+namespace lensgraph {
+
 using namespace rendergraph;
 using testing::HasSubstr;
 
@@ -112,3 +114,5 @@ TEST(Dump, DotShowsFlowAndCulledPasses) {
   EXPECT_THAT(dot, HasSubstr("style=dashed, label=\"debug\""));
   EXPECT_THAT(dot, HasSubstr("r3 [shape=ellipse, label=\"out\", peripheries=2]"));
 }
+
+}  // namespace lensgraph

@@ -12,7 +12,7 @@
 #include "rendergraph/executor.h"
 #include "rendergraph/graph.h"
 
-using namespace rendergraph;
+using namespace lensgraph::rendergraph;
 
 const ComputeProgram kBright{.name = "bright", .shader = {}}, kBlur{.name = "blur", .shader = {}},
     kAdd{.name = "add", .shader = {}};  // .shader: your SPIR-V

@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+namespace lensgraph {
+
 using namespace rendergraph;
 using nlohmann::json;
 
@@ -91,3 +93,5 @@ TEST(Trace, WithoutDeviceTimesThereIsNoDeviceTrack) {
 }
 
 }  // namespace
+
+}  // namespace lensgraph

@@ -3,7 +3,7 @@
 
 #include "plan_checker/resource_replay.h"
 
-namespace plan_checker {
+namespace lensgraph::plan_checker {
 
 using namespace rendergraph;
 
@@ -161,4 +161,4 @@ bool ResourceReplay::usedThroughout() const {
   return std::find(used.begin(), used.end(), false) == used.end();
 }
 
-}  // namespace plan_checker
+}  // namespace lensgraph::plan_checker

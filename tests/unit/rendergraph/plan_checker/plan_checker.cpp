@@ -10,7 +10,7 @@
 #include "plan_checker/plan_replay.h"
 #include "plan_checker/plan_structure.h"
 
-namespace plan_checker {
+namespace lensgraph::plan_checker {
 
 using namespace rendergraph;
 
@@ -215,4 +215,4 @@ uint32_t fewestBatches(const Setting& setting) {
   return count;
 }
 
-}  // namespace plan_checker
+}  // namespace lensgraph::plan_checker

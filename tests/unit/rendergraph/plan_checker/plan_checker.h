@@ -52,7 +52,7 @@
 #include "rendergraph/declare/declaration.h"
 #include "rendergraph/plan.h"
 
-namespace plan_checker {
+namespace lensgraph::plan_checker {
 
 /// A plan and what it was made from.
 struct Setting {
@@ -96,4 +96,4 @@ Superfluous findSuperfluous(const Setting& setting);
 /// nothing goes missing: the fewest places that meet all their ranges. Events stay as they are.
 uint32_t fewestBatches(const Setting& setting);
 
-}  // namespace plan_checker
+}  // namespace lensgraph::plan_checker

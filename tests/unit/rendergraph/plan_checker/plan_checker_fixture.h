@@ -13,7 +13,7 @@
 #include "rendergraph/declare/declaration.h"
 #include "support/test_device.h"
 
-namespace plan_checker_test {
+namespace lensgraph::plan_checker_test {
 
 using namespace rendergraph;
 using plan_checker::Hazard;
@@ -104,4 +104,4 @@ class PlanChecker : public testing::Test {
   uint32_t passes = 0;
 };
 
-}  // namespace plan_checker_test
+}  // namespace lensgraph::plan_checker_test

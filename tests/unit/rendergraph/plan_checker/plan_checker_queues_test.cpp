@@ -1,6 +1,8 @@
 // The plan checker on plans for several queues, written by hand.
 #include "plan_checker/plan_checker_fixture.h"
 
+namespace lensgraph {
+
 using namespace plan_checker_test;
 
 namespace {
@@ -249,3 +251,5 @@ TEST_F(PlanChecker, TheListIsInOrder) {
                                                }};
   for (const auto& fault : faults) expectHazard(plan, fault, Hazard::structure);
 }
+
+}  // namespace lensgraph

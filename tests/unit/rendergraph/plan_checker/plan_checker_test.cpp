@@ -1,6 +1,8 @@
 // The plan checker itself, on plans for one queue written by hand: right ones pass, and each fault in them is found.
 #include "plan_checker/plan_checker_fixture.h"
 
+namespace lensgraph {
+
 using namespace plan_checker_test;
 
 TEST_F(PlanChecker, AnEventCoversWhatCameBeforeItWasSet) {
@@ -205,3 +207,5 @@ TEST_F(PlanChecker, CountsTheFewestBatches) {
   EXPECT_EQ(late.barrierBatches, 4u);
   EXPECT_EQ(plan_checker::fewestBatches(setting(late)), 2u);
 }
+
+}  // namespace lensgraph

@@ -5,6 +5,8 @@
 
 #include "rendergraph/declare/declaration.h"
 
+namespace lensgraph {
+
 using namespace rendergraph;
 
 PlanMaker& PlanMaker::submission(uint32_t queue, std::initializer_list<SubmissionWait> waits) {
@@ -144,3 +146,5 @@ Plan PlanMaker::finish() {
   count();
   return plan_;
 }
+
+}  // namespace lensgraph

@@ -10,6 +10,8 @@
 #include "rendergraph/graph.h"
 #include "rendergraph/plan.h"
 
+namespace lensgraph {
+
 class PlanMaker {
  public:
   using Images = std::vector<rendergraph::ImageBarrier>;
@@ -47,3 +49,5 @@ class PlanMaker {
   rendergraph::Plan plan_;
   std::vector<uint32_t> concurrent_;
 };
+
+}  // namespace lensgraph

@@ -4,7 +4,7 @@
 
 #include "plan_checker/plan_structure.h"
 
-namespace plan_checker {
+namespace lensgraph::plan_checker {
 
 using namespace rendergraph;
 
@@ -136,4 +136,4 @@ std::vector<Finding> checkMemory(const Setting& setting) {
   return Memory(setting).check();
 }
 
-}  // namespace plan_checker
+}  // namespace lensgraph::plan_checker

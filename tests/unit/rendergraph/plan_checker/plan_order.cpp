@@ -3,7 +3,7 @@
 
 #include <array>
 
-namespace plan_checker {
+namespace lensgraph::plan_checker {
 
 using namespace rendergraph;
 
@@ -91,4 +91,4 @@ bool PlanOrder::edgesHold() const {
   return true;
 }
 
-}  // namespace plan_checker
+}  // namespace lensgraph::plan_checker

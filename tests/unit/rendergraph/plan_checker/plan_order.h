@@ -16,7 +16,7 @@
 #include "rendergraph/declare/declaration.h"
 #include "rendergraph/plan.h"
 
-namespace plan_checker {
+namespace lensgraph::plan_checker {
 
 inline constexpr uint32_t kMaxQueues = 4;
 
@@ -79,4 +79,4 @@ class PlanOrder {
   uint32_t words_ = 0;
 };
 
-}  // namespace plan_checker
+}  // namespace lensgraph::plan_checker

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace plan_checker {
+namespace lensgraph::plan_checker {
 
 using namespace rendergraph;
 
@@ -189,4 +189,4 @@ bool PlanReplay::holds(const std::vector<Wait>& waits, uint32_t from) {
   return holding;
 }
 
-}  // namespace plan_checker
+}  // namespace lensgraph::plan_checker

@@ -8,7 +8,7 @@
 #include "plan_checker/plan_order.h"
 #include "plan_checker/resource_replay.h"
 
-namespace plan_checker {
+namespace lensgraph::plan_checker {
 
 class PlanReplay {
  public:
@@ -47,4 +47,4 @@ class PlanReplay {
   std::vector<Finding> overlaps_;
 };
 
-}  // namespace plan_checker
+}  // namespace lensgraph::plan_checker

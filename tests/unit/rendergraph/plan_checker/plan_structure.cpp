@@ -7,7 +7,7 @@
 #include "plan_checker/plan_order.h"
 #include "plan_checker/usage_model.h"
 
-namespace plan_checker {
+namespace lensgraph::plan_checker {
 
 using namespace rendergraph;
 
@@ -343,4 +343,4 @@ std::vector<Finding> checkStructure(const Setting& setting) {
   return Structure(setting).check();
 }
 
-}  // namespace plan_checker
+}  // namespace lensgraph::plan_checker

@@ -5,7 +5,7 @@
 
 #include "plan_checker/plan_checker.h"
 
-namespace plan_checker {
+namespace lensgraph::plan_checker {
 
 /// Steps, submissions, queues, barriers, events and renderings. Empty: the plan can be replayed.
 std::vector<Finding> checkStructure(const Setting& setting);
@@ -13,4 +13,4 @@ std::vector<Finding> checkStructure(const Setting& setting);
 /// Heaps, placements, lifetimes and the memory report.
 std::vector<Finding> checkMemory(const Setting& setting);
 
-}  // namespace plan_checker
+}  // namespace lensgraph::plan_checker

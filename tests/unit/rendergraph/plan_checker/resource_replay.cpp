@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace plan_checker {
+namespace lensgraph::plan_checker {
 
 using namespace rendergraph;
 
@@ -450,4 +450,4 @@ void ResourceReplay::fail(Hazard hazard, uint32_t step, const char* why) {
   findings_->push_back({hazard, std::move(text)});
 }
 
-}  // namespace plan_checker
+}  // namespace lensgraph::plan_checker

@@ -12,7 +12,7 @@
 #include "plan_checker/plan_order.h"
 #include "plan_checker/usage_model.h"
 
-namespace plan_checker {
+namespace lensgraph::plan_checker {
 
 /// What remains of an earlier use, for the later ones to respect.
 struct Record {
@@ -186,4 +186,4 @@ class ResourceReplay {
   uint32_t frame_ = 0, now_ = 0;
 };
 
-}  // namespace plan_checker
+}  // namespace lensgraph::plan_checker

@@ -1,7 +1,7 @@
 // The checker's own table of usages.
 #include "plan_checker/usage_model.h"
 
-namespace plan_checker {
+namespace lensgraph::plan_checker {
 
 using namespace rendergraph;
 
@@ -140,4 +140,4 @@ void addAccess(Use& use, const DeclaredAccess& access) {
   use.onlyAttachment = use.onlyAttachment && isAttachment(access.usage);
 }
 
-}  // namespace plan_checker
+}  // namespace lensgraph::plan_checker

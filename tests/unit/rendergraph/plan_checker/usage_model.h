@@ -10,7 +10,7 @@
 #include "rendergraph/compiler.h"
 #include "rendergraph/declare/declaration.h"
 
-namespace plan_checker {
+namespace lensgraph::plan_checker {
 
 inline constexpr uint32_t kStageCount = 13;
 using StageMask = uint32_t;  ///< One bit for each elementary stage.
@@ -53,4 +53,4 @@ VkImageLayout layoutFor(rendergraph::Usage usage);
 /// Adds one declared access to what a pass does with a subresource.
 void addAccess(Use& use, const rendergraph::DeclaredAccess& access);
 
-}  // namespace plan_checker
+}  // namespace lensgraph::plan_checker

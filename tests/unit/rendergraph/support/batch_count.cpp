@@ -4,6 +4,8 @@
 #include <utility>
 #include <vector>
 
+namespace lensgraph {
+
 using namespace rendergraph;
 
 namespace {
@@ -67,3 +69,5 @@ uint32_t fewestBatches(const Declaration& declaration, const Plan& plan) {
   }
   return batches;
 }
+
+}  // namespace lensgraph

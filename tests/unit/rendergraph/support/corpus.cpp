@@ -4,6 +4,8 @@
 #include <iterator>
 #include <random>
 
+namespace lensgraph {
+
 using namespace rendergraph;
 
 namespace corpus {
@@ -86,3 +88,5 @@ void declare(Graph& graph, const Shape& shape, std::vector<Image>& outputs) {
 }
 
 }  // namespace corpus
+
+}  // namespace lensgraph

@@ -9,7 +9,7 @@
 
 #include "rendergraph/graph.h"
 
-namespace corpus {
+namespace lensgraph::corpus {
 
 enum class Workload : uint8_t {
   chain2,  ///< Pass i reads the outputs of i - 1 and i - 2.
@@ -40,4 +40,4 @@ inline void declare(rendergraph::Graph& graph, const Shape& shape) {
   declare(graph, shape, outputs);
 }
 
-}  // namespace corpus
+}  // namespace lensgraph::corpus

@@ -1,6 +1,6 @@
 #include "support/executor_support.h"
 
-namespace executor_test {
+namespace lensgraph::executor_test {
 
 using namespace rendergraph;
 
@@ -69,4 +69,4 @@ Chain declareChain(Graph& graph, float clear, uint32_t width) {
   return {half, result};
 }
 
-}  // namespace executor_test
+}  // namespace lensgraph::executor_test

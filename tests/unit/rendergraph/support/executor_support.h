@@ -9,7 +9,7 @@
 #include "rendergraph/executor.h"
 #include "support/fake_backend.h"
 
-namespace executor_test {
+namespace lensgraph::executor_test {
 
 inline const rendergraph::ComputeProgram kCompute{.name = "program", .shader = {}};
 inline const rendergraph::RasterProgram kRaster{
@@ -52,4 +52,4 @@ struct Everything {
 /// Returns the read-back buffer.
 rendergraph::Buffer declare(rendergraph::Graph& graph, const Everything& what);
 
-}  // namespace executor_test
+}  // namespace lensgraph::executor_test

@@ -4,6 +4,8 @@
 #include <chrono>
 #include <thread>
 
+namespace lensgraph {
+
 using rendergraph::ResolvedBinding;
 
 namespace {
@@ -450,3 +452,5 @@ void FakeBackend::clearDepthImage(const CommandStream& stream, VkImage image, fl
 void FakeBackend::writeTimestamp(const CommandStream& stream, VkPipelineStageFlags2, VkQueryPool pool, uint32_t slot) {
   if (!silent) note(stream, "timestamp " + std::to_string(slot), {idOf(pool)});
 }
+
+}  // namespace lensgraph

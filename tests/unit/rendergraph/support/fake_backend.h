@@ -11,6 +11,8 @@
 #include "rendergraph/backend.h"
 #include "rendergraph/error.h"
 
+namespace lensgraph {
+
 class FakeBackend : public rendergraph::Backend {
  public:
   using CommandStream = rendergraph::CommandStream;
@@ -169,3 +171,5 @@ class FakeBackend : public rendergraph::Backend {
   std::unique_ptr<Commands> hosts_;  // Stands for all command buffers of the host.
   uint64_t lastId_ = 1000;
 };
+
+}  // namespace lensgraph

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+namespace lensgraph {
+
 using namespace rendergraph;
 
 namespace {
@@ -362,3 +364,5 @@ class Generator {
 void declareRandom(Graph& graph, uint32_t seed, uint32_t passes, bool resolves) {
   Generator(graph, seed, resolves).run(passes);
 }
+
+}  // namespace lensgraph

@@ -9,6 +9,8 @@
 
 #include "rendergraph/compiler.h"
 
+namespace lensgraph {
+
 class TestDevice : public rendergraph::NominalDevice {
  public:
   using Queues = std::vector<rendergraph::QueueFacts>;
@@ -44,3 +46,5 @@ class TestDevice : public rendergraph::NominalDevice {
   bool severalMemoryTypes_;
   VkDeviceSize dedicatedFrom_;
 };
+
+}  // namespace lensgraph
