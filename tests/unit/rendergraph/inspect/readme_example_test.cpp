@@ -59,6 +59,7 @@ void drawFrame(Executor& executor, Graph& graph, const ImageDesc& desc, const Im
 // [example]
 // clang-format on
 
+namespace lensgraph {
 namespace {
 
 const ImportedImage kScene{.image = FakeBackend::as<VkImage>(7),
@@ -73,6 +74,7 @@ std::string readme() {
 }
 
 }  // namespace
+}  // namespace lensgraph
 
 TEST(ReadmeExample, RunsThreePassesAndCompilesOnce) {
   FakeBackend backend;
