@@ -13,12 +13,12 @@ namespace lensgraph::rendergraph {
 namespace {
 
 /// Whether anybody needs what an access leaves after the rendering that begins at `step`.
-bool readLater(const Declaration& declaration, const Cells& cells, const Timeline& timeline, uint32_t access,
+bool readLater(const Declaration& declaration, const Cells& cells, const CellUses& cellUses, uint32_t access,
                uint32_t step) {
   const DeclaredResource& resource = declaration.resources[declaration.accesses[access].resource];
   bool read = false;
   cells.forEach(access, [&](uint32_t cell) {
-    for (const CellUse& use : timeline.of(cell)) {
+    for (const CellUse& use : cellUses.of(cell)) {
       if (use.step <= step) continue;
       read = read || use.needsContent;
       return;
@@ -54,8 +54,8 @@ Run continued(Plan& plan, const Run& attachments) {
 /// Gathers the attachments of one rendering.
 class Rendering {
  public:
-  Rendering(const Declaration& declaration, const Cells& cells, const Timeline& timeline, uint32_t step)
-      : declaration_(declaration), cells_(cells), timeline_(timeline), step_(step) {}
+  Rendering(const Declaration& declaration, const Cells& cells, const CellUses& cellUses, uint32_t step)
+      : declaration_(declaration), cells_(cells), cellUses_(cellUses), step_(step) {}
 
   void add(uint32_t index) {
     const DeclaredAccess& access = declaration_.accesses[index];
@@ -66,7 +66,7 @@ class Rendering {
                                  .store = VK_ATTACHMENT_STORE_OP_STORE};
     if (!access.writes()) {
       attachment.store = VK_ATTACHMENT_STORE_OP_NONE;  // STORE would count as a write.
-    } else if (!readLater(declaration_, cells_, timeline_, index, step_)) {
+    } else if (!readLater(declaration_, cells_, cellUses_, index, step_)) {
       attachment.store = VK_ATTACHMENT_STORE_OP_DONT_CARE;
     }
     switch (access.role) {
@@ -100,14 +100,14 @@ class Rendering {
  private:
   const Declaration& declaration_;
   const Cells& cells_;
-  const Timeline& timeline_;
+  const CellUses& cellUses_;
   uint32_t step_;
   std::vector<PlannedAttachment> colors_, depths_, resolved_;
 };
 
 }  // namespace
 
-void planAttachments(const Declaration& declaration, const Cells& cells, const Timeline& timeline,
+void planAttachments(const Declaration& declaration, const Cells& cells, const CellUses& cellUses,
                      const Schedule& schedule, Plan& plan) {
   for (uint32_t step = 0; step < plan.passes.size(); ++step) {
     PlannedPass& planned = plan.passes[step];
@@ -122,7 +122,7 @@ void planAttachments(const Declaration& declaration, const Cells& cells, const T
       planned.depth = continued(plan, first.depth);
       continue;
     }
-    Rendering rendering(declaration, cells, timeline, step);
+    Rendering rendering(declaration, cells, cellUses, step);
     for (uint32_t index = pass.firstAccess; index != kNone; index = declaration.accesses[index].nextOfPass) {
       if (declaration.accesses[index].role != AttachmentRole::none) rendering.add(index);
     }

@@ -8,11 +8,11 @@ namespace lensgraph::rendergraph {
 struct Declaration;
 struct Schedule;
 class Cells;
-class Timeline;
+class CellUses;
 
 /// Fills the raster part of every PlannedPass. Passes that share one rendering have the same attachments, with the
 /// first one's load and what is stored after the last.
-void planAttachments(const Declaration& declaration, const Cells& cells, const Timeline& timeline,
+void planAttachments(const Declaration& declaration, const Cells& cells, const CellUses& cellUses,
                      const Schedule& schedule, Plan& plan);
 
 }  // namespace lensgraph::rendergraph

@@ -91,10 +91,10 @@ Plan compile(const Declaration& declaration, const CompileOptions& options, cons
   schedule.group = std::move(order.groups);
   assignQueues(declaration, device.queues(), options.useQueues, schedule);
   mergeRasterPasses(declaration, options.mergeRasterPasses, schedule);
-  Timeline timeline(declaration, cells, schedule);
-  const std::vector<Sharing> sharing = sharingOf(declaration, cells, timeline, schedule, device.queues());
-  Submissions submissions = planSubmissions(declaration, cells, timeline, sharing, options.overlappingFrames, schedule);
-  if (schedule.severalQueues) timeline = Timeline(declaration, cells, schedule);
+  CellUses cellUses(declaration, cells, schedule);
+  const std::vector<Sharing> sharing = sharingOf(declaration, cells, cellUses, schedule, device.queues());
+  Submissions submissions = planSubmissions(declaration, cells, cellUses, sharing, options.overlappingFrames, schedule);
+  if (schedule.severalQueues) cellUses = CellUses(declaration, cells, schedule);
 
   Plan plan;
   plan.culled = std::move(culling.culled);
@@ -102,11 +102,11 @@ Plan compile(const Declaration& declaration, const CompileOptions& options, cons
   placeResources(declaration, uses, sharing, schedule, submissions, options.aliasing, plan);
   plan.submissions = std::move(submissions.list);
   plan.submissionWaits = std::move(submissions.waits);
-  planAttachments(declaration, cells, timeline, schedule, plan);
+  planAttachments(declaration, cells, cellUses, schedule, plan);
   planBarriers({.declaration = declaration,
                 .options = options,
                 .cells = cells,
-                .timeline = timeline,
+                .cellUses = cellUses,
                 .schedule = schedule,
                 .submissions = submissions,
                 .sharing = sharing,

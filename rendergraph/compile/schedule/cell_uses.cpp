@@ -8,7 +8,7 @@
 
 namespace lensgraph::rendergraph {
 
-Timeline::Timeline(const Declaration& declaration, const Cells& cells, const Schedule& schedule)
+CellUses::CellUses(const Declaration& declaration, const Cells& cells, const Schedule& schedule)
     : starts_(cells.count() + 1, 0) {
   for (uint32_t index = 0; index < declaration.accesses.size(); ++index) {
     cells.forEach(index, [&](uint32_t cell) { ++starts_[cell + 1]; });

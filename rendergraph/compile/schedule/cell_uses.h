@@ -32,9 +32,9 @@ struct CellUse {
   bool needsContent = false;  ///< Of what was there before.
 };
 
-class Timeline {
+class CellUses {
  public:
-  Timeline(const Declaration& declaration, const Cells& cells, const Schedule& schedule);
+  CellUses(const Declaration& declaration, const Cells& cells, const Schedule& schedule);
   /// In execution order.
   std::span<const CellUse> of(uint32_t cell) const {
     return {uses_.data() + starts_[cell], uses_.data() + ends_[cell]};

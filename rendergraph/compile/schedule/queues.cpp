@@ -80,7 +80,7 @@ void assignQueues(const Declaration& declaration, std::span<const QueueFacts> qu
   }
 }
 
-std::vector<Sharing> sharingOf(const Declaration& declaration, const Cells& cells, const Timeline& timeline,
+std::vector<Sharing> sharingOf(const Declaration& declaration, const Cells& cells, const CellUses& cellUses,
                                const Schedule& schedule, std::span<const QueueFacts> queues) {
   std::vector<Sharing> result;
   if (!schedule.severalQueues) return result;
@@ -90,7 +90,7 @@ std::vector<Sharing> sharingOf(const Declaration& declaration, const Cells& cell
     bool severalFamilies = false, severalAtOnce = false, changesFamily = false;
     uint32_t family = declared.observable() ? queues[0].family : kNone;
     for (uint32_t cell = cells.firstOf(resource); cell < cells.firstOf(resource) + cells.countOf(resource); ++cell) {
-      const std::span<const CellUse> uses = timeline.of(cell);
+      const std::span<const CellUse> uses = cellUses.of(cell);
       changesFamily = changesFamily || contentChangesFamily(declared, uses, queues);
       for (std::size_t first = 0; first < uses.size();) {
         const Epoch epoch = epochAt(uses, first);

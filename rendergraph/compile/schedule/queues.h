@@ -12,7 +12,7 @@ namespace lensgraph::rendergraph {
 struct Declaration;
 struct Schedule;
 class Cells;
-class Timeline;
+class CellUses;
 
 /// Sets Schedule::queue, queues and severalQueues. Raster and host passes, and what prefers a queue that the device
 /// does not have, run on queue 0. Precondition: the order is set.
@@ -34,7 +34,7 @@ inline bool hasOwner(Sharing sharing) {
 }
 
 /// By resource. Empty when all steps are on queue 0.
-std::vector<Sharing> sharingOf(const Declaration& declaration, const Cells& cells, const Timeline& timeline,
+std::vector<Sharing> sharingOf(const Declaration& declaration, const Cells& cells, const CellUses& cellUses,
                                const Schedule& schedule, std::span<const QueueFacts> queues);
 
 }  // namespace lensgraph::rendergraph

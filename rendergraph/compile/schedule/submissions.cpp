@@ -318,7 +318,7 @@ void findConcurrent(const Schedule& schedule, Submissions& submissions) {
 
 }  // namespace
 
-Submissions planSubmissions(const Declaration& declaration, const Cells& cells, const Timeline& timeline,
+Submissions planSubmissions(const Declaration& declaration, const Cells& cells, const CellUses& cellUses,
                             std::span<const Sharing> sharing, bool overlappingFrames, Schedule& schedule) {
   std::vector<Wait> waits;
   if (schedule.severalQueues) {
@@ -326,7 +326,7 @@ Submissions planSubmissions(const Declaration& declaration, const Cells& cells, 
     for (uint32_t resource = 0; resource < declaration.resources.size(); ++resource) {
       const uint32_t first = cells.firstOf(resource);
       for (uint32_t cell = first; cell < first + cells.countOf(resource); ++cell) {
-        dependencies.addCell(declaration.resources[resource], timeline.of(cell), hasOwner(sharing[resource]));
+        dependencies.addCell(declaration.resources[resource], cellUses.of(cell), hasOwner(sharing[resource]));
       }
     }
     waits = findWaits(schedule, std::move(dependencies).sorted());

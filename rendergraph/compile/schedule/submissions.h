@@ -13,7 +13,7 @@ namespace lensgraph::rendergraph {
 struct Declaration;
 struct Schedule;
 class Cells;
-class Timeline;
+class CellUses;
 
 struct Submissions {
   std::vector<PlannedSubmission> list;
@@ -25,8 +25,8 @@ struct Submissions {
 };
 
 /// Puts the steps of each submission together, which may change the schedule. `sharing`: of sharingOf(), for the
-/// schedule as given; `timeline` belongs to it too and must be made anew afterwards.
-Submissions planSubmissions(const Declaration& declaration, const Cells& cells, const Timeline& timeline,
+/// schedule as given; `cellUses` belongs to it too and must be made anew afterwards.
+Submissions planSubmissions(const Declaration& declaration, const Cells& cells, const CellUses& cellUses,
                             std::span<const Sharing> sharing, bool overlappingFrames, Schedule& schedule);
 
 }  // namespace lensgraph::rendergraph

@@ -80,7 +80,7 @@ void BarrierPlanner::findOccupants() {
     const uint32_t first = in_.cells.firstOf(placement.resource);
     bool full = true;
     for (uint32_t cell = first; cell < first + in_.cells.countOf(placement.resource); ++cell) {
-      full = !in_.timeline.of(cell).empty() && full;
+      full = !in_.cellUses.of(cell).empty() && full;
       noteFinalScopes(placement.resource, cell);
     }
     fullyUsed[placement.resource] = full;
@@ -89,7 +89,7 @@ void BarrierPlanner::findOccupants() {
 }
 
 void BarrierPlanner::noteFinalScopes(uint32_t resource, uint32_t cell) {
-  const std::span<const CellUse> uses = in_.timeline.of(cell);
+  const std::span<const CellUse> uses = in_.cellUses.of(cell);
   if (uses.empty()) return noteUnused(resource);
   AccessPoint* scopes = &finalScopes_[static_cast<std::size_t>(resource) * in_.schedule.queues];
   finalSteps_[resource] = std::max(finalSteps_[resource], in_.schedule.unitLast[uses.back().step]);
@@ -195,7 +195,7 @@ void BarrierPlanner::planResource(uint32_t resource) {
   const uint32_t count = in_.cells.countOf(resource);
   found_.clear();
   for (uint32_t cell = first; cell < first + count; ++cell) {
-    const std::span<const CellUse> uses = in_.timeline.of(cell);
+    const std::span<const CellUse> uses = in_.cellUses.of(cell);
     if (uses.empty() && (!declared.observable() || declared.retained())) continue;
     const CellState start = stateBefore(resource, uses.empty() ? 0 : uses.front().queue);
     uses_.assign(uses.begin(), uses.end());

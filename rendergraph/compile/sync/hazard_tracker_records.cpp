@@ -78,7 +78,7 @@ const std::vector<CellHazards::Record>& CellHazards::leftBy(uint32_t resource) {
 /// The last epoch, and what is done for the host after the graph: whatever was before comes before these.
 void CellHazards::addLeft(uint32_t resource, uint32_t cell, std::vector<Record>& records) {
   const DeclaredResource& declared = in_.declaration.resources[resource];
-  const std::span<const CellUse> uses = in_.timeline.of(cell);
+  const std::span<const CellUse> uses = in_.cellUses.of(cell);
   const uint32_t steps = in_.schedule.steps();
   const auto after = useAfterGraph(declared, uses, VK_IMAGE_LAYOUT_UNDEFINED, steps, in_.options.overlappingFrames);
   if (uses.empty() && !after) return;

@@ -12,14 +12,14 @@ namespace lensgraph::rendergraph {
 struct Schedule;
 struct Submissions;
 class Cells;
-class Timeline;
+class CellUses;
 
 /// What the barriers follow from.
 struct BarrierInputs {
   const Declaration& declaration;
   const CompileOptions& options;
   const Cells& cells;
-  const Timeline& timeline;
+  const CellUses& cellUses;
   const Schedule& schedule;
   const Submissions& submissions;
   std::span<const Sharing> sharing;  ///< Empty on one queue.
