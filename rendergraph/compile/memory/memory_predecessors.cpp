@@ -1,4 +1,4 @@
-// Sweeps over time with, for each heap, its byte ranges and their latest occupants. With overlapping frames the sweep
+// Sweeps over time with, for each heap, its byte ranges and their latest predecessors. With overlapping frames the sweep
 // is done twice, and the second one starts from what the first one left.
 #include "rendergraph/compile/memory/memory_predecessors.h"
 
@@ -13,32 +13,32 @@ constexpr uint32_t kEnd = UINT32_MAX;
 /// One heap. Segments are contiguous and sorted; the last one reaches to infinity.
 class HeapMap {
  public:
-  /// Gives the bytes to the resource and calls before(occupant) for everyone who had some of them.
+  /// Gives the bytes to the resource and calls before(predecessor) for everyone who had some of them.
   template <class Use>
   void occupy(const Placement& placement, bool replaces, Use&& before) {
     const std::size_t first = split(placement.offset);
     const std::size_t end = split(placement.offset + placement.size);
     for (std::size_t i = first; i < end; ++i) {
       Segment& segment = segments_[i];
-      for (uint32_t node = segment.occupants; node != kEnd; node = nodes_[node].next) before(nodes_[node].occupant);
-      nodes_.push_back({{placement.resource, false}, replaces ? kEnd : segment.occupants});
-      segment.occupants = static_cast<uint32_t>(nodes_.size() - 1);
+      for (uint32_t node = segment.predecessors; node != kEnd; node = nodes_[node].next) before(nodes_[node].predecessor);
+      nodes_.push_back({{placement.resource, false}, replaces ? kEnd : segment.predecessors});
+      segment.predecessors = static_cast<uint32_t>(nodes_.size() - 1);
     }
     if (replaces)
       segments_.erase(segments_.begin() + static_cast<std::ptrdiff_t>(first) + 1,
                       segments_.begin() + static_cast<std::ptrdiff_t>(end));
   }
   void beginNextFrame() {
-    for (Node& node : nodes_) node.occupant.frameBefore = true;
+    for (Node& node : nodes_) node.predecessor.frameBefore = true;
   }
 
  private:
   struct Segment {
     VkDeviceSize begin;
-    uint32_t occupants;  // Head of a list of nodes.
+    uint32_t predecessors;  // Head of a list of nodes.
   };
   struct Node {
-    Occupant occupant;
+    MemoryPredecessor predecessor;
     uint32_t next;
   };
 
@@ -49,7 +49,7 @@ class HeapMap {
                          [](VkDeviceSize value, const Segment& segment) { return value < segment.begin; });
     const auto index = static_cast<std::size_t>(next - segments_.begin()) - 1;
     if (segments_[index].begin == at) return index;
-    segments_.insert(next, Segment{at, segments_[index].occupants});
+    segments_.insert(next, Segment{at, segments_[index].predecessors});
     return index + 1;
   }
 
@@ -59,7 +59,7 @@ class HeapMap {
 
 }  // namespace
 
-Occupants::Occupants(std::span<const Placement> placements, std::size_t resources, std::span<const uint8_t> fullyUsed,
+MemoryPredecessors::MemoryPredecessors(std::span<const Placement> placements, std::size_t resources, std::span<const uint8_t> fullyUsed,
                      bool overlappingFrames)
     : starts_(resources, 0), counts_(resources, 0) {
   // By first step, then by resource: placements are sorted by resource already, so counting keeps that.
@@ -80,8 +80,8 @@ Occupants::Occupants(std::span<const Placement> placements, std::size_t resource
     for (uint32_t index : byTime) {
       const Placement& placement = placements[index];
       const auto start = static_cast<uint32_t>(all_.size());
-      maps[placement.heap].occupy(placement, fullyUsed[placement.resource] != 0, [&](const Occupant& occupant) {
-        if (std::find(all_.begin() + start, all_.end(), occupant) == all_.end()) all_.push_back(occupant);
+      maps[placement.heap].occupy(placement, fullyUsed[placement.resource] != 0, [&](const MemoryPredecessor& predecessor) {
+        if (std::find(all_.begin() + start, all_.end(), predecessor) == all_.end()) all_.push_back(predecessor);
       });
       starts_[placement.resource] = start;
       counts_[placement.resource] = static_cast<uint32_t>(all_.size()) - start;

@@ -10,26 +10,26 @@
 namespace lensgraph::rendergraph {
 
 /// Somebody whose last uses a resource's first use must wait for.
-struct Occupant {
+struct MemoryPredecessor {
   uint32_t resource = 0;
   bool frameBefore = false;  ///< It had the memory at the end of the frame before; it may be the resource itself.
-  bool operator==(const Occupant&) const = default;
+  bool operator==(const MemoryPredecessor&) const = default;
 };
 
-class Occupants {
+class MemoryPredecessors {
  public:
-  Occupants() = default;
+  MemoryPredecessors() = default;
   /// `fullyUsed`: by resource, whether every part of it is used, so that waiting for it is waiting for everybody
   /// before it as well. `overlappingFrames`: as in CompileOptions.
-  Occupants(std::span<const Placement> placements, std::size_t resources, std::span<const uint8_t> fullyUsed,
+  MemoryPredecessors(std::span<const Placement> placements, std::size_t resources, std::span<const uint8_t> fullyUsed,
             bool overlappingFrames);
-  std::span<const Occupant> before(uint32_t resource) const {
+  std::span<const MemoryPredecessor> before(uint32_t resource) const {
     return {all_.data() + starts_[resource], all_.data() + starts_[resource] + counts_[resource]};
   }
 
  private:
   std::vector<uint32_t> starts_, counts_;  // By resource.
-  std::vector<Occupant> all_;
+  std::vector<MemoryPredecessor> all_;
 };
 
 }  // namespace lensgraph::rendergraph

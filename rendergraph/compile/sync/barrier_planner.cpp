@@ -9,7 +9,7 @@
 //   write after write  both;
 //   layout             the transition itself writes, so the later epoch's accesses are all in its second scope;
 //                      content that the later epoch replaces is dropped by naming UNDEFINED as old layout;
-//   alias              the first use of each cell waits for the last epochs of all previous occupants of the memory,
+//   alias              the first use of each cell waits for the last epochs of all previous predecessors of the memory,
 //                      with overlapping frames also for those of the frame before.
 //
 // The layout in which a frame leaves what is kept across frames is made visible to everything by the barrier at its
@@ -55,7 +55,7 @@ BarrierReason reasonFor(const CellState& state, const Epoch& epoch) {
 }  // namespace
 
 void BarrierPlanner::run() {
-  findOccupants();
+  findPredecessors();
   all_.reserve(in_.declaration.accesses.size());
   // On one queue, each barrier is needed as it is found.
   if (plan_.submissions.size() > 1) trimming_.emplace(in_, plan_);
@@ -70,7 +70,7 @@ void BarrierPlanner::run() {
   placeBarriers(in_.declaration, in_.options, in_.schedule, in_.queues, all_, plan_);
 }
 
-void BarrierPlanner::findOccupants() {
+void BarrierPlanner::findPredecessors() {
   const std::size_t count = in_.declaration.resources.size();
   std::vector<uint8_t> fullyUsed(count, 0);
   finalScopes_.resize(count * in_.schedule.queues);
@@ -85,7 +85,7 @@ void BarrierPlanner::findOccupants() {
     }
     fullyUsed[placement.resource] = full;
   }
-  occupants_ = Occupants(plan_.placements, count, fullyUsed, in_.options.overlappingFrames);
+  predecessors_ = MemoryPredecessors(plan_.placements, count, fullyUsed, in_.options.overlappingFrames);
 }
 
 void BarrierPlanner::noteFinalScopes(uint32_t resource, uint32_t cell) {
@@ -137,28 +137,28 @@ bool BarrierPlanner::noteExported(const DeclaredResource& declared, std::span<co
   return all || (after != 0 && (newLayout || uses.back().writes || writesMemory(declared.after.access)));
 }
 
-CellState BarrierPlanner::stateAfterOccupants(uint32_t resource, uint32_t queue) const {
+CellState BarrierPlanner::stateAfterPredecessors(uint32_t resource, uint32_t queue) const {
   CellState state;
   bool elsewhere = false;
-  for (const Occupant& occupant : occupants_.before(resource)) {
+  for (const MemoryPredecessor& predecessor : predecessors_.before(resource)) {
     // Queues other than the first learn of the frame before by a semaphore.
-    elsewhere = elsewhere || (occupant.frameBefore && queue != 0);
+    elsewhere = elsewhere || (predecessor.frameBefore && queue != 0);
     // A last change of layout or owner counts as a write.
-    state.wrote = state.wrote || (occupant.frameBefore && changedAtEnd_[occupant.resource] != 0);
+    state.wrote = state.wrote || (predecessor.frameBefore && changedAtEnd_[predecessor.resource] != 0);
     for (uint32_t other = 0; other < in_.schedule.queues; ++other) {
-      const AccessPoint& scope = finalScopes_[occupant.resource * in_.schedule.queues + other];
+      const AccessPoint& scope = finalScopes_[predecessor.resource * in_.schedule.queues + other];
       if (scope.stages == 0) continue;
-      state.last.pass = occupant.frameBefore ? AccessPoint::kOutside : scope.pass;
+      state.last.pass = predecessor.frameBefore ? AccessPoint::kOutside : scope.pass;
       state.wrote = state.wrote || scope.access != 0;
-      if (other != queue || (occupant.frameBefore && queue != 0)) {
+      if (other != queue || (predecessor.frameBefore && queue != 0)) {
         elsewhere = true;
         continue;
       }
       state.last.stages |= scope.stages;
       state.last.access |= scope.access;
     }
-    if (occupant.frameBefore) continue;
-    const uint32_t last = finalSteps_[occupant.resource];
+    if (predecessor.frameBefore) continue;
+    const uint32_t last = finalSteps_[predecessor.resource];
     state.lastStep = state.lastStep == kNone ? last : std::max(state.lastStep, last);
   }
   constexpr VkPipelineStageFlags2 kAll = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
@@ -174,7 +174,7 @@ CellState BarrierPlanner::stateAfterOccupants(uint32_t resource, uint32_t queue)
 
 CellState BarrierPlanner::stateBefore(uint32_t resource, uint32_t queue) const {
   const DeclaredResource& declared = in_.declaration.resources[resource];
-  if (declared.created()) return stateAfterOccupants(resource, queue);
+  if (declared.created()) return stateAfterPredecessors(resource, queue);
   CellState state;
   if (declared.retained()) {
     // The barrier at the end of the frame before made it visible to everything.
@@ -202,7 +202,7 @@ void BarrierPlanner::planResource(uint32_t resource) {
     if (const auto after =
             useAfterGraph(declared, uses, start.layout, in_.schedule.steps(), in_.options.overlappingFrames))
       uses_.push_back(*after);
-    if (trimming_) trimming_->begin(resource, cell, occupants_.before(resource));
+    if (trimming_) trimming_->begin(resource, cell, predecessors_.before(resource));
     if (in_.schedule.severalQueues && crosses(declared)) {
       planCrossingCell(resource, cell, start);
     } else {

@@ -38,12 +38,12 @@ class BarrierPlanner {
 
  private:
   // Who had the memory before.
-  void findOccupants();
+  void findPredecessors();
   void noteFinalScopes(uint32_t resource, uint32_t cell);
   void noteUnused(uint32_t resource);
   bool noteExported(const DeclaredResource& declared, std::span<const CellUse> uses, bool owned,
                     AccessPoint& scope) const;
-  CellState stateAfterOccupants(uint32_t resource, uint32_t queue) const;
+  CellState stateAfterPredecessors(uint32_t resource, uint32_t queue) const;
   CellState stateBefore(uint32_t resource, uint32_t queue) const;
 
   // One queue.
@@ -73,7 +73,7 @@ class BarrierPlanner {
   std::vector<AccessPoint> finalScopes_;
   std::vector<uint32_t> finalSteps_;
   std::vector<uint8_t> changedAtEnd_;  // By resource: exported in another layout or from another queue.
-  Occupants occupants_;
+  MemoryPredecessors predecessors_;
   std::vector<CellUse> uses_;        // Of the current cell.
   std::vector<FoundBarrier> found_;  // Of the current resource.
   std::vector<FoundBarrier> all_;

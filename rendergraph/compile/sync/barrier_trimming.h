@@ -25,8 +25,8 @@ class BarrierTrimming {
   BarrierTrimming(const BarrierInputs& inputs, const Plan& plan);
 
   /// The following epochs are those of this cell, one after the other.
-  void begin(uint32_t resource, uint32_t cell, std::span<const Occupant> occupants) {
-    hazards_.begin(resource, cell, occupants);
+  void begin(uint32_t resource, uint32_t cell, std::span<const MemoryPredecessor> predecessors) {
+    hazards_.begin(resource, cell, predecessors);
   }
   /// `found` from the index on are the barriers that the epoch needs when nothing else orders it.
   void trim(const Epoch& epoch, std::vector<FoundBarrier>& found, std::size_t first);

@@ -41,7 +41,7 @@ class CellHazards {
   CellHazards(const BarrierInputs& inputs, const Plan& plan, const QueueOrder& order);
 
   /// Goes to the time before the graph.
-  void begin(uint32_t resource, uint32_t cell, std::span<const Occupant> occupants);
+  void begin(uint32_t resource, uint32_t cell, std::span<const MemoryPredecessor> predecessors);
   /// The next epoch of the cell, which the following calls are about.
   void enter(const Epoch& epoch);
   /// Forgets at which stage resources end a frame for the next one's sake, where that is of no use here.

@@ -19,14 +19,14 @@ constexpr VkAccessFlags2 kEveryAccess = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_
 
 }  // namespace
 
-void CellHazards::begin(uint32_t resource, uint32_t cell, std::span<const Occupant> occupants) {
+void CellHazards::begin(uint32_t resource, uint32_t cell, std::span<const MemoryPredecessor> predecessors) {
   const DeclaredResource& declared = in_.declaration.resources[resource];
   records_.clear();
   if (!declared.created()) addOutside(declared);
-  for (const Occupant& occupant : occupants) {
-    for (const Record& left : leftBy(occupant.resource)) {
+  for (const MemoryPredecessor& predecessor : predecessors) {
+    for (const Record& left : leftBy(predecessor.resource)) {
       Record record = left;
-      if (occupant.frameBefore) {
+      if (predecessor.frameBefore) {
         record.moment = order_.inFrameBefore(left.moment);
       }
       const bool known = std::find(records_.begin(), records_.end(), record) != records_.end();
