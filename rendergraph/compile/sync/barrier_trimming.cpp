@@ -53,11 +53,11 @@ TimedBarrier BarrierTrimming::timed(const FoundBarrier& found) const {
 void BarrierTrimming::trim(const Epoch& epoch, std::vector<FoundBarrier>& found, std::size_t first) {
   barriers_.clear();
   for (std::size_t i = first; i < found.size(); ++i) barriers_.push_back(timed(found[i]));
-  hazards_.enter(epoch);
-  assert(hazards_.respected(barriers_));
+  hazards_.startEpoch(epoch);
+  assert(hazards_.isSynchronized(barriers_));
   hazards_.dropEndStages(barriers_);
   for (TimedBarrier& barrier : barriers_) trim(barrier);
-  hazards_.leave(barriers_, needs_);
+  hazards_.finishEpoch(barriers_, needs_);
   std::size_t kept = first;
   for (std::size_t i = first; i < found.size(); ++i) {
     if (barriers_[i - first].absent) continue;
@@ -69,7 +69,7 @@ void BarrierTrimming::trim(const Epoch& epoch, std::vector<FoundBarrier>& found,
 }
 
 bool BarrierTrimming::again() {
-  if (!hazards_.hesitated()) return false;
+  if (!hazards_.needsAnotherPass()) return false;
   needs_ = {};
   return true;
 }
@@ -96,14 +96,14 @@ void BarrierTrimming::trimBits(TimedBarrier& barrier, Member member, uint64_t ex
   for (uint64_t left = member(barrier.barrier) & ~except; left != 0; left &= left - 1) {
     const uint64_t bit = left & ~(left - 1);
     member(barrier.barrier) &= ~bit;
-    if (!hazards_.respected(barriers_)) member(barrier.barrier) |= bit;
+    if (!hazards_.isSynchronized(barriers_)) member(barrier.barrier) |= bit;
   }
 }
 
 void BarrierTrimming::trim(TimedBarrier& barrier) {
   if (!barrier.writes()) {
     barrier.absent = true;
-    if (hazards_.respected(barriers_)) return;
+    if (hazards_.isSynchronized(barriers_)) return;
     barrier.absent = false;
   }
   trimBits(barrier, [](ImageBarrier& b) -> uint64_t& { return b.from.stages; });

@@ -26,7 +26,7 @@ class BarrierTrimming {
 
   /// The following epochs are those of this cell, one after the other.
   void begin(uint32_t resource, uint32_t cell, std::span<const MemoryPredecessor> predecessors) {
-    hazards_.begin(resource, cell, predecessors);
+    hazards_.startCell(resource, cell, predecessors);
   }
   /// `found` from the index on are the barriers that the epoch needs when nothing else orders it.
   void trim(const Epoch& epoch, std::vector<FoundBarrier>& found, std::size_t first);
@@ -49,7 +49,7 @@ class BarrierTrimming {
   const Plan& plan_;
   uint32_t lastSubmission_;
   QueueOrder order_;
-  CellHazards hazards_;
+  HazardTracker hazards_;
   WaitNeeds needs_;
   std::vector<TimedBarrier> barriers_;  // Of the epoch.
 };

@@ -24,7 +24,7 @@ bool containsAccess(VkAccessFlags2 access, VkAccessFlags2 part) {
 
 }  // namespace
 
-CellHazards::CellHazards(const BarrierInputs& inputs, const Plan& plan, const QueueOrder& order)
+HazardTracker::HazardTracker(const BarrierInputs& inputs, const Plan& plan, const QueueOrder& order)
     : in_(inputs),
       plan_(plan),
       order_(order),
@@ -33,26 +33,26 @@ CellHazards::CellHazards(const BarrierInputs& inputs, const Plan& plan, const Qu
   ends_.resize(inputs.declaration.resources.size());
 }
 
-CellHazards::Record CellHazards::writtenBy(const TimedBarrier& barrier) const {
+HazardTracker::Record HazardTracker::writtenBy(const TimedBarrier& barrier) const {
   Record record{
       .moment = order_.momentOf(barrier.submission), .queue = barrier.queue, .write = true, .available = kOnEveryQueue};
   record.passed.push_back({barrier.queue, barrier.barrier.to.stages, barrier.barrier.to.access, {}});
   return record;
 }
 
-bool CellHazards::settled(const Record& record, uint32_t submission) const {
+bool HazardTracker::settled(const Record& record, uint32_t submission) const {
   const Moment host = order_.hostDoneBefore(submission);
   return record.settled || (host != QueueOrder::kNever && order_.covers(host, record.moment));
 }
 
-void CellHazards::noteHost(const Record& record, uint32_t submission, WaitNeeds* needs) const {
+void HazardTracker::noteHost(const Record& record, uint32_t submission, WaitNeeds* needs) const {
   if (needs == nullptr || record.settled) return;
   needs->needOrder(record.moment, order_.hostDoneBefore(submission));
 }
 
 /// The stages of waits up to a submission that cover the record and serve.
 template <class Serves>
-void CellHazards::addThrough(const Record& record, uint32_t queue, uint32_t submission, Serves&& serves) {
+void HazardTracker::addThrough(const Record& record, uint32_t queue, uint32_t submission, Serves&& serves) {
   const std::size_t before = through_.size();
   order_.forWaits(queue, submission, record.moment, [&](uint32_t wait, bool inFrameBefore) {
     forEachBit(plan_.submissionWaits[wait].stages, [&](VkPipelineStageFlags2 stage) {
@@ -65,7 +65,7 @@ void CellHazards::addThrough(const Record& record, uint32_t queue, uint32_t subm
 }
 
 /// Collects what it depends on in through_.
-CellHazards::Reach CellHazards::inFirstScope(const Record& record, const TimedBarrier& barrier) {
+HazardTracker::Reach HazardTracker::inFirstScope(const Record& record, const TimedBarrier& barrier) {
   const VkPipelineStageFlags2 source = elementaryStages(barrier.barrier.from.stages);
   const std::size_t before = through_.size();
   if (settled(record, barrier.scopeEnds)) return Reach::always;
@@ -80,13 +80,13 @@ CellHazards::Reach CellHazards::inFirstScope(const Record& record, const TimedBa
   return through_.size() > before ? Reach::throughWaits : Reach::no;
 }
 
-bool CellHazards::makesAvailable(const Record& record, const TimedBarrier& barrier) const {
+bool HazardTracker::makesAvailable(const Record& record, const TimedBarrier& barrier) const {
   return !barrier.absent && record.queue == barrier.queue && record.stages != 0 &&
          contains(barrier.barrier.from.stages, record.stages) &&
          containsAccess(barrier.barrier.from.access, record.written);
 }
 
-CellHazards::Reach CellHazards::available(const Record& record, uint32_t queue, uint32_t submission) {
+HazardTracker::Reach HazardTracker::available(const Record& record, uint32_t queue, uint32_t submission) {
   if (!record.write || (record.available >> queue & 1) != 0 || settled(record, submission)) return Reach::always;
   const std::size_t before = through_.size();
   addThrough(record, queue, submission, [](VkPipelineStageFlags2) { return true; });
@@ -94,7 +94,7 @@ CellHazards::Reach CellHazards::available(const Record& record, uint32_t queue, 
 }
 
 /// Whether the touch comes after the record, and when it names an access, whether the record is visible to it.
-CellHazards::Reach CellHazards::reached(const Record& record, const Use& use, const Touch& touch,
+HazardTracker::Reach HazardTracker::reached(const Record& record, const Use& use, const Touch& touch,
                                         std::span<const TimedBarrier> barriers) {
   through_.clear();
   if ((touch.access == 0 || record.byHost) && settled(record, use.submission)) return Reach::always;
@@ -124,12 +124,12 @@ CellHazards::Reach CellHazards::reached(const Record& record, const Use& use, co
   return through_.empty() ? Reach::no : Reach::throughWaits;
 }
 
-bool CellHazards::note(Reach reach, const Record& record, WaitNeeds* needs) {
+bool HazardTracker::note(Reach reach, const Record& record, WaitNeeds* needs) {
   if (reach == Reach::throughWaits && needs != nullptr) needs->needOneOf(record.moment, through_);
   return reach != Reach::no;
 }
 
-bool CellHazards::respects(const Use& use, const Record& record, std::span<const TimedBarrier> barriers,
+bool HazardTracker::respects(const Use& use, const Record& record, std::span<const TimedBarrier> barriers,
                            WaitNeeds* needs) {
   if (!record.write && !use.writes) return true;
   for (uint32_t i = use.firstTouch; i < use.endTouch; ++i) {
@@ -161,7 +161,7 @@ bool CellHazards::respects(const Use& use, const Record& record, std::span<const
 }
 
 /// Whether a change of layout or owner waits for the record.
-bool CellHazards::canWrite(const TimedBarrier& barrier, const Record& record, WaitNeeds* needs) {
+bool HazardTracker::canWrite(const TimedBarrier& barrier, const Record& record, WaitNeeds* needs) {
   through_.clear();
   if (!note(inFirstScope(record, barrier), record, needs)) return false;
   if (needs != nullptr && settled(record, barrier.scopeEnds)) noteHost(record, barrier.scopeEnds, needs);
@@ -170,7 +170,7 @@ bool CellHazards::canWrite(const TimedBarrier& barrier, const Record& record, Wa
   return note(available(record, barrier.queue, barrier.takesEffect), record, needs);
 }
 
-bool CellHazards::check(std::span<const TimedBarrier> barriers, WaitNeeds* needs) {
+bool HazardTracker::check(std::span<const TimedBarrier> barriers, WaitNeeds* needs) {
   std::span<const Record> records = records_;
   Record written;
   for (const TimedBarrier& barrier : barriers) {
@@ -189,7 +189,7 @@ bool CellHazards::check(std::span<const TimedBarrier> barriers, WaitNeeds* needs
   return true;
 }
 
-void CellHazards::dropEndStages(std::span<const TimedBarrier> barriers) {
+void HazardTracker::dropEndStages(std::span<const TimedBarrier> barriers) {
   for (Record& record : records_) {
     if (record.endOf == UINT32_MAX || record.passed.empty()) continue;
     EndStage& end = ends_[record.endOf];
@@ -205,7 +205,7 @@ void CellHazards::dropEndStages(std::span<const TimedBarrier> barriers) {
   }
 }
 
-bool CellHazards::hesitated() {
+bool HazardTracker::needsAnotherPass() {
   bool result = false;
   for (EndStage& end : ends_) {
     result = result || (end.needed && end.dropped);
@@ -215,11 +215,11 @@ bool CellHazards::hesitated() {
   return result;
 }
 
-bool CellHazards::respected(std::span<const TimedBarrier> barriers) {
+bool HazardTracker::isSynchronized(std::span<const TimedBarrier> barriers) {
   return check(barriers, nullptr);
 }
 
-void CellHazards::leave(std::span<const TimedBarrier> barriers, WaitNeeds& needs) {
+void HazardTracker::finishEpoch(std::span<const TimedBarrier> barriers, WaitNeeds& needs) {
   listAll_ = true;
   check(barriers, &needs);
   for (const TimedBarrier& barrier : barriers) {
@@ -244,7 +244,7 @@ void CellHazards::leave(std::span<const TimedBarrier> barriers, WaitNeeds& needs
 }
 
 /// Carries the record over a barrier, when it is in its first scope.
-void CellHazards::pass(Record& record, const TimedBarrier& barrier, WaitNeeds& needs) {
+void HazardTracker::pass(Record& record, const TimedBarrier& barrier, WaitNeeds& needs) {
   if (barrier.absent) return;
   through_.clear();
   const Reach reach = inFirstScope(record, barrier);

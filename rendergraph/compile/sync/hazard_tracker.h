@@ -36,14 +36,14 @@ struct TimedBarrier {
   bool writes() const { return transfers() || barrier.oldLayout != barrier.newLayout; }
 };
 
-class CellHazards {
+class HazardTracker {
  public:
-  CellHazards(const BarrierInputs& inputs, const Plan& plan, const QueueOrder& order);
+  HazardTracker(const BarrierInputs& inputs, const Plan& plan, const QueueOrder& order);
 
   /// Goes to the time before the graph.
-  void begin(uint32_t resource, uint32_t cell, std::span<const MemoryPredecessor> predecessors);
+  void startCell(uint32_t resource, uint32_t cell, std::span<const MemoryPredecessor> predecessors);
   /// The next epoch of the cell, which the following calls are about.
-  void enter(const Epoch& epoch);
+  void startEpoch(const Epoch& epoch);
   /// Forgets at which stage resources end a frame for the next one's sake, where that is of no use here.
   void dropEndStages(std::span<const TimedBarrier> barriers);
   /// After the last cell: whether the next frame relies on the stage at which the graph's last barrier of a resource
@@ -51,11 +51,11 @@ class CellHazards {
   bool needsEndStage(uint32_t resource) const { return ends_[resource].needed; }
   /// Whether the stage at which some resource ends was of use to one of its successors, and taken for useless for
   /// another. Then all cells must be gone through again; what is of use is known this time.
-  bool hesitated();
+  bool needsAnotherPass();
   /// Whether nothing is missing with these barriers, in the order in which they take effect.
-  bool respected(std::span<const TimedBarrier> barriers);
+  bool isSynchronized(std::span<const TimedBarrier> barriers);
   /// Goes to the time after the epoch, and notes what it relied on. Precondition: nothing is missing.
-  void leave(std::span<const TimedBarrier> barriers, WaitNeeds& needs);
+  void finishEpoch(std::span<const TimedBarrier> barriers, WaitNeeds& needs);
 
  private:
   using Moment = QueueOrder::Moment;

@@ -19,7 +19,7 @@ constexpr VkAccessFlags2 kEveryAccess = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_
 
 }  // namespace
 
-void CellHazards::begin(uint32_t resource, uint32_t cell, std::span<const MemoryPredecessor> predecessors) {
+void HazardTracker::startCell(uint32_t resource, uint32_t cell, std::span<const MemoryPredecessor> predecessors) {
   const DeclaredResource& declared = in_.declaration.resources[resource];
   records_.clear();
   if (!declared.created()) addOutside(declared);
@@ -37,7 +37,7 @@ void CellHazards::begin(uint32_t resource, uint32_t cell, std::span<const Memory
   cell_ = cell;
 }
 
-void CellHazards::addOutside(const DeclaredResource& resource) {
+void HazardTracker::addOutside(const DeclaredResource& resource) {
   if (resource.retained()) {  // At rest on queue 0, where everything comes after it and sees it.
     Record rest{.moment = order_.beforeGraph(),
                 .write = true,
@@ -64,7 +64,7 @@ void CellHazards::addOutside(const DeclaredResource& resource) {
   records_.push_back(std::move(content));
 }
 
-const std::vector<CellHazards::Record>& CellHazards::leftBy(uint32_t resource) {
+const std::vector<HazardTracker::Record>& HazardTracker::leftBy(uint32_t resource) {
   if (leftKnown_[resource] == 0) {
     leftKnown_[resource] = 1;
     const uint32_t first = in_.cells.firstOf(resource);
@@ -76,7 +76,7 @@ const std::vector<CellHazards::Record>& CellHazards::leftBy(uint32_t resource) {
 }
 
 /// The last epoch, and what is done for the host after the graph: whatever was before comes before these.
-void CellHazards::addLeft(uint32_t resource, uint32_t cell, std::vector<Record>& records) {
+void HazardTracker::addLeft(uint32_t resource, uint32_t cell, std::vector<Record>& records) {
   const DeclaredResource& declared = in_.declaration.resources[resource];
   const std::span<const CellUse> uses = in_.cellUses.of(cell);
   const uint32_t steps = in_.schedule.steps();
@@ -129,13 +129,13 @@ void CellHazards::addLeft(uint32_t resource, uint32_t cell, std::vector<Record>&
   }
 }
 
-void CellHazards::enter(const Epoch& epoch) {
+void HazardTracker::startEpoch(const Epoch& epoch) {
   uses_.clear();
   touches_.clear();
   for (const CellUse& use : epoch.uses) addUse(use);
 }
 
-void CellHazards::addUse(const CellUse& use) {
+void HazardTracker::addUse(const CellUse& use) {
   const uint32_t steps = in_.schedule.steps();
   const DeclaredResource& declared = in_.declaration.resources[resource_];
   const auto first = touches_.size();
@@ -167,7 +167,7 @@ void CellHazards::addUse(const CellUse& use) {
        .endTouch = static_cast<uint32_t>(touches_.size())});
 }
 
-void CellHazards::addTouch(std::size_t first, VkPipelineStageFlags2 stages, VkAccessFlags2 access) {
+void HazardTracker::addTouch(std::size_t first, VkPipelineStageFlags2 stages, VkAccessFlags2 access) {
   forEachBit(stages, [&](VkPipelineStageFlags2 stage) {
     const VkPipelineStageFlags2 elementary = elementaryStages(stage);
     for (std::size_t i = first; i < touches_.size(); ++i) {
@@ -179,7 +179,7 @@ void CellHazards::addTouch(std::size_t first, VkPipelineStageFlags2 stages, VkAc
   });
 }
 
-void CellHazards::addRecords(const Use& use, Moment moment, std::vector<Record>& records) const {
+void HazardTracker::addRecords(const Use& use, Moment moment, std::vector<Record>& records) const {
   for (uint32_t i = use.firstTouch; i < use.endTouch; ++i) {
     Record record{.moment = moment, .queue = use.queue, .stages = touches_[i].stages, .write = use.writes};
     if (use.writes) record.written = touches_[i].access & kWriteAccess;
