@@ -50,7 +50,7 @@ class BarrierTrimming {
   uint32_t lastSubmission_;
   QueueOrder order_;
   HazardTracker hazards_;
-  WaitNeeds needs_;
+  WaitMinimizer needs_;
   std::vector<TimedBarrier> barriers_;  // Of the epoch.
 };
 

@@ -45,7 +45,7 @@ bool HazardTracker::settled(const Record& record, uint32_t submission) const {
   return record.settled || (host != QueueOrder::kNever && order_.covers(host, record.moment));
 }
 
-void HazardTracker::noteHost(const Record& record, uint32_t submission, WaitNeeds* needs) const {
+void HazardTracker::noteHost(const Record& record, uint32_t submission, WaitMinimizer* needs) const {
   if (needs == nullptr || record.settled) return;
   needs->needOrder(record.moment, order_.hostDoneBefore(submission));
 }
@@ -124,13 +124,13 @@ HazardTracker::Reach HazardTracker::reached(const Record& record, const Use& use
   return through_.empty() ? Reach::no : Reach::throughWaits;
 }
 
-bool HazardTracker::note(Reach reach, const Record& record, WaitNeeds* needs) {
+bool HazardTracker::note(Reach reach, const Record& record, WaitMinimizer* needs) {
   if (reach == Reach::throughWaits && needs != nullptr) needs->needOneOf(record.moment, through_);
   return reach != Reach::no;
 }
 
 bool HazardTracker::respects(const Use& use, const Record& record, std::span<const TimedBarrier> barriers,
-                           WaitNeeds* needs) {
+                           WaitMinimizer* needs) {
   if (!record.write && !use.writes) return true;
   for (uint32_t i = use.firstTouch; i < use.endTouch; ++i) {
     Touch touch{touches_[i].stages, 0};
@@ -161,7 +161,7 @@ bool HazardTracker::respects(const Use& use, const Record& record, std::span<con
 }
 
 /// Whether a change of layout or owner waits for the record.
-bool HazardTracker::canWrite(const TimedBarrier& barrier, const Record& record, WaitNeeds* needs) {
+bool HazardTracker::canWrite(const TimedBarrier& barrier, const Record& record, WaitMinimizer* needs) {
   through_.clear();
   if (!note(inFirstScope(record, barrier), record, needs)) return false;
   if (needs != nullptr && settled(record, barrier.scopeEnds)) noteHost(record, barrier.scopeEnds, needs);
@@ -170,7 +170,7 @@ bool HazardTracker::canWrite(const TimedBarrier& barrier, const Record& record, 
   return note(available(record, barrier.queue, barrier.takesEffect), record, needs);
 }
 
-bool HazardTracker::check(std::span<const TimedBarrier> barriers, WaitNeeds* needs) {
+bool HazardTracker::check(std::span<const TimedBarrier> barriers, WaitMinimizer* needs) {
   std::span<const Record> records = records_;
   Record written;
   for (const TimedBarrier& barrier : barriers) {
@@ -219,7 +219,7 @@ bool HazardTracker::isSynchronized(std::span<const TimedBarrier> barriers) {
   return check(barriers, nullptr);
 }
 
-void HazardTracker::finishEpoch(std::span<const TimedBarrier> barriers, WaitNeeds& needs) {
+void HazardTracker::finishEpoch(std::span<const TimedBarrier> barriers, WaitMinimizer& needs) {
   listAll_ = true;
   check(barriers, &needs);
   for (const TimedBarrier& barrier : barriers) {
@@ -244,7 +244,7 @@ void HazardTracker::finishEpoch(std::span<const TimedBarrier> barriers, WaitNeed
 }
 
 /// Carries the record over a barrier, when it is in its first scope.
-void HazardTracker::pass(Record& record, const TimedBarrier& barrier, WaitNeeds& needs) {
+void HazardTracker::pass(Record& record, const TimedBarrier& barrier, WaitMinimizer& needs) {
   if (barrier.absent) return;
   through_.clear();
   const Reach reach = inFirstScope(record, barrier);

@@ -55,7 +55,7 @@ class HazardTracker {
   /// Whether nothing is missing with these barriers, in the order in which they take effect.
   bool isSynchronized(std::span<const TimedBarrier> barriers);
   /// Goes to the time after the epoch, and notes what it relied on. Precondition: nothing is missing.
-  void finishEpoch(std::span<const TimedBarrier> barriers, WaitNeeds& needs);
+  void finishEpoch(std::span<const TimedBarrier> barriers, WaitMinimizer& needs);
 
  private:
   using Moment = QueueOrder::Moment;
@@ -108,12 +108,12 @@ class HazardTracker {
   bool makesAvailable(const Record& record, const TimedBarrier& barrier) const;
   Reach available(const Record& record, uint32_t queue, uint32_t submission);
   Reach reached(const Record& record, const Use& use, const Touch& touch, std::span<const TimedBarrier> barriers);
-  bool respects(const Use& use, const Record& record, std::span<const TimedBarrier> barriers, WaitNeeds* needs);
-  bool canWrite(const TimedBarrier& barrier, const Record& record, WaitNeeds* needs);
-  bool check(std::span<const TimedBarrier> barriers, WaitNeeds* needs);
-  void pass(Record& record, const TimedBarrier& barrier, WaitNeeds& needs);
-  bool note(Reach reach, const Record& record, WaitNeeds* needs);
-  void noteHost(const Record& record, uint32_t submission, WaitNeeds* needs) const;
+  bool respects(const Use& use, const Record& record, std::span<const TimedBarrier> barriers, WaitMinimizer* needs);
+  bool canWrite(const TimedBarrier& barrier, const Record& record, WaitMinimizer* needs);
+  bool check(std::span<const TimedBarrier> barriers, WaitMinimizer* needs);
+  void pass(Record& record, const TimedBarrier& barrier, WaitMinimizer& needs);
+  bool note(Reach reach, const Record& record, WaitMinimizer* needs);
+  void noteHost(const Record& record, uint32_t submission, WaitMinimizer* needs) const;
 
   const BarrierInputs& in_;
   const Plan& plan_;

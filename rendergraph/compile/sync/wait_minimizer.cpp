@@ -31,7 +31,7 @@ void eraseWaitsWithoutStages(Plan& plan) {
 
 }  // namespace
 
-void WaitNeeds::needOneOf(QueueOrder::Moment moment, std::vector<WaitStage>& stages) {
+void WaitMinimizer::needOneOf(QueueOrder::Moment moment, std::vector<WaitStage>& stages) {
   std::sort(stages.begin(), stages.end());
   const auto end =
       std::unique(stages.begin(), stages.end(), [](const WaitStage& a, const WaitStage& b) { return a.sameAs(b); });
@@ -45,11 +45,11 @@ void WaitNeeds::needOneOf(QueueOrder::Moment moment, std::vector<WaitStage>& sta
   needs_.push_back({moment, first, static_cast<uint32_t>(stages_.size())});
 }
 
-void WaitNeeds::needOrder(QueueOrder::Moment moment, QueueOrder::Moment later) {
+void WaitMinimizer::needOrder(QueueOrder::Moment moment, QueueOrder::Moment later) {
   ordered_.push_back({moment, later});
 }
 
-void WaitNeeds::minimize(QueueOrder& order, Plan& plan) const {
+void WaitMinimizer::minimize(QueueOrder& order, Plan& plan) const {
   takeStages(plan, Last::mayGo);
   takeWaits(order, plan);
   // The waits that are left have a stage in any case, which may serve for those of others.
@@ -57,7 +57,7 @@ void WaitNeeds::minimize(QueueOrder& order, Plan& plan) const {
   eraseWaitsWithoutStages(plan);
 }
 
-void WaitNeeds::takeStages(Plan& plan, Last last) const {
+void WaitMinimizer::takeStages(Plan& plan, Last last) const {
   struct Service {
     WaitStage by;
     uint32_t need;
@@ -94,7 +94,7 @@ void WaitNeeds::takeStages(Plan& plan, Last last) const {
 }
 
 /// A wait may be there for what it tells its queue, and those that wait for that, about other queues.
-void WaitNeeds::takeWaits(QueueOrder& order, Plan& plan) const {
+void WaitMinimizer::takeWaits(QueueOrder& order, Plan& plan) const {
   std::vector<uint8_t> needed(plan.submissionWaits.size(), 0);
   for (const Need& need : needs_) {
     if (const auto only = onlyWait(need, plan)) needed[*only] = 1;
@@ -108,7 +108,7 @@ void WaitNeeds::takeWaits(QueueOrder& order, Plan& plan) const {
   order.update();
 }
 
-std::optional<uint32_t> WaitNeeds::onlyWait(const Need& need, const Plan& plan) const {
+std::optional<uint32_t> WaitMinimizer::onlyWait(const Need& need, const Plan& plan) const {
   std::optional<uint32_t> only;
   for (uint32_t i = need.first; i < need.end; ++i) {
     if (!has(plan, stages_[i])) continue;
@@ -118,7 +118,7 @@ std::optional<uint32_t> WaitNeeds::onlyWait(const Need& need, const Plan& plan) 
   return only;
 }
 
-bool WaitNeeds::met(const QueueOrder& order, const Plan& plan) const {
+bool WaitMinimizer::met(const QueueOrder& order, const Plan& plan) const {
   const auto last = static_cast<uint32_t>(plan.submissions.size() - 1);
   for (uint32_t i = 0; i < last; ++i) {
     if (!order.covers(order.momentOf(last), order.momentOf(i))) return false;

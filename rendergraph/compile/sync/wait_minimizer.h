@@ -21,7 +21,7 @@ struct WaitStage {
   bool sameAs(const WaitStage& other) const { return wait == other.wait && stage == other.stage; }
 };
 
-class WaitNeeds {
+class WaitMinimizer {
  public:
   /// Something relies on one of the stages to have waited for the moment, no matter which.
   void needOneOf(QueueOrder::Moment moment, std::vector<WaitStage>& stages);
