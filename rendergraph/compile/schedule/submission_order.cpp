@@ -2,7 +2,7 @@
 
 namespace lensgraph::rendergraph {
 
-QueueOrder::QueueOrder(const Plan& plan, uint32_t queues, std::vector<uint8_t> endsWithHost, bool overlappingFrames)
+SubmissionOrder::SubmissionOrder(const Plan& plan, uint32_t queues, std::vector<uint8_t> endsWithHost, bool overlappingFrames)
     : plan_(plan),
       queues_(queues),
       endsWithHost_(std::move(endsWithHost)),
@@ -14,7 +14,7 @@ QueueOrder::QueueOrder(const Plan& plan, uint32_t queues, std::vector<uint8_t> e
   update();
 }
 
-void QueueOrder::update() {
+void SubmissionOrder::update() {
   const auto count = static_cast<uint32_t>(plan_.submissions.size());
   waitsOf_.assign(queues_, {});
   for (uint32_t i = 0; i < count; ++i) {

@@ -12,13 +12,13 @@ namespace lensgraph::rendergraph {
 
 /// Vector clocks over the submissions of a plan. With overlapping frames, the frame before has submissions of its own.
 /// A moment is the end of one of them, or what was before the graph.
-class QueueOrder {
+class SubmissionOrder {
  public:
   using Moment = uint32_t;
   static constexpr Moment kNever = UINT32_MAX;
 
   /// `endsWithHost`: by submission, whether its last step is a host pass.
-  QueueOrder(const Plan& plan, uint32_t queues, std::vector<uint8_t> endsWithHost, bool overlappingFrames);
+  SubmissionOrder(const Plan& plan, uint32_t queues, std::vector<uint8_t> endsWithHost, bool overlappingFrames);
 
   /// Takes the waits of the plan as they are now. One without stages is none.
   void update();

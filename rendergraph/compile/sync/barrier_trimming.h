@@ -48,7 +48,7 @@ class BarrierTrimming {
   const BarrierInputs& in_;
   const Plan& plan_;
   uint32_t lastSubmission_;
-  QueueOrder order_;
+  SubmissionOrder order_;
   HazardTracker hazards_;
   WaitMinimizer needs_;
   std::vector<TimedBarrier> barriers_;  // Of the epoch.

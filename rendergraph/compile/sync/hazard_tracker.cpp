@@ -24,7 +24,7 @@ bool containsAccess(VkAccessFlags2 access, VkAccessFlags2 part) {
 
 }  // namespace
 
-HazardTracker::HazardTracker(const BarrierInputs& inputs, const Plan& plan, const QueueOrder& order)
+HazardTracker::HazardTracker(const BarrierInputs& inputs, const Plan& plan, const SubmissionOrder& order)
     : in_(inputs),
       plan_(plan),
       order_(order),
@@ -42,7 +42,7 @@ HazardTracker::Record HazardTracker::writtenBy(const TimedBarrier& barrier) cons
 
 bool HazardTracker::settled(const Record& record, uint32_t submission) const {
   const Moment host = order_.hostDoneBefore(submission);
-  return record.settled || (host != QueueOrder::kNever && order_.covers(host, record.moment));
+  return record.settled || (host != SubmissionOrder::kNever && order_.covers(host, record.moment));
 }
 
 void HazardTracker::noteHost(const Record& record, uint32_t submission, WaitMinimizer* needs) const {

@@ -38,7 +38,7 @@ struct TimedBarrier {
 
 class HazardTracker {
  public:
-  HazardTracker(const BarrierInputs& inputs, const Plan& plan, const QueueOrder& order);
+  HazardTracker(const BarrierInputs& inputs, const Plan& plan, const SubmissionOrder& order);
 
   /// Goes to the time before the graph.
   void startCell(uint32_t resource, uint32_t cell, std::span<const MemoryPredecessor> predecessors);
@@ -58,7 +58,7 @@ class HazardTracker {
   void finishEpoch(std::span<const TimedBarrier> barriers, WaitMinimizer& needs);
 
  private:
-  using Moment = QueueOrder::Moment;
+  using Moment = SubmissionOrder::Moment;
   static constexpr uint32_t kOnEveryQueue = UINT32_MAX;
   /// The second scope of a barrier that had the record in its first.
   struct Passed {
@@ -117,7 +117,7 @@ class HazardTracker {
 
   const BarrierInputs& in_;
   const Plan& plan_;
-  const QueueOrder& order_;
+  const SubmissionOrder& order_;
   uint32_t resource_ = 0, cell_ = 0;
   std::vector<Record> records_;
   std::vector<Use> uses_;  // Of the epoch.

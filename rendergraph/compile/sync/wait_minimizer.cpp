@@ -31,7 +31,7 @@ void eraseWaitsWithoutStages(Plan& plan) {
 
 }  // namespace
 
-void WaitMinimizer::needOneOf(QueueOrder::Moment moment, std::vector<WaitStage>& stages) {
+void WaitMinimizer::needOneOf(SubmissionOrder::Moment moment, std::vector<WaitStage>& stages) {
   std::sort(stages.begin(), stages.end());
   const auto end =
       std::unique(stages.begin(), stages.end(), [](const WaitStage& a, const WaitStage& b) { return a.sameAs(b); });
@@ -45,11 +45,11 @@ void WaitMinimizer::needOneOf(QueueOrder::Moment moment, std::vector<WaitStage>&
   needs_.push_back({moment, first, static_cast<uint32_t>(stages_.size())});
 }
 
-void WaitMinimizer::needOrder(QueueOrder::Moment moment, QueueOrder::Moment later) {
+void WaitMinimizer::needOrder(SubmissionOrder::Moment moment, SubmissionOrder::Moment later) {
   ordered_.push_back({moment, later});
 }
 
-void WaitMinimizer::minimize(QueueOrder& order, Plan& plan) const {
+void WaitMinimizer::minimize(SubmissionOrder& order, Plan& plan) const {
   takeStages(plan, Last::mayGo);
   takeWaits(order, plan);
   // The waits that are left have a stage in any case, which may serve for those of others.
@@ -94,7 +94,7 @@ void WaitMinimizer::takeStages(Plan& plan, Last last) const {
 }
 
 /// A wait may be there for what it tells its queue, and those that wait for that, about other queues.
-void WaitMinimizer::takeWaits(QueueOrder& order, Plan& plan) const {
+void WaitMinimizer::takeWaits(SubmissionOrder& order, Plan& plan) const {
   std::vector<uint8_t> needed(plan.submissionWaits.size(), 0);
   for (const Need& need : needs_) {
     if (const auto only = onlyWait(need, plan)) needed[*only] = 1;
@@ -118,7 +118,7 @@ std::optional<uint32_t> WaitMinimizer::onlyWait(const Need& need, const Plan& pl
   return only;
 }
 
-bool WaitMinimizer::met(const QueueOrder& order, const Plan& plan) const {
+bool WaitMinimizer::met(const SubmissionOrder& order, const Plan& plan) const {
   const auto last = static_cast<uint32_t>(plan.submissions.size() - 1);
   for (uint32_t i = 0; i < last; ++i) {
     if (!order.covers(order.momentOf(last), order.momentOf(i))) return false;

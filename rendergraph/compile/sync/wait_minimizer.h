@@ -24,26 +24,26 @@ struct WaitStage {
 class WaitMinimizer {
  public:
   /// Something relies on one of the stages to have waited for the moment, no matter which.
-  void needOneOf(QueueOrder::Moment moment, std::vector<WaitStage>& stages);
+  void needOneOf(SubmissionOrder::Moment moment, std::vector<WaitStage>& stages);
   /// Something relies on the order of two moments, through whatever waits.
-  void needOrder(QueueOrder::Moment moment, QueueOrder::Moment later);
+  void needOrder(SubmissionOrder::Moment moment, SubmissionOrder::Moment later);
 
   /// `order` is that of the plan. The waits of the last submission stay: they stand for the end of the frame.
-  void minimize(QueueOrder& order, Plan& plan) const;
+  void minimize(SubmissionOrder& order, Plan& plan) const;
 
  private:
   struct Need {
-    QueueOrder::Moment moment;
+    SubmissionOrder::Moment moment;
     uint32_t first, end;  // Of stages_.
   };
   struct Ordered {
-    QueueOrder::Moment moment, later;
+    SubmissionOrder::Moment moment, later;
   };
   enum class Last { mayGo, stays };  // Stage of a wait.
   void takeStages(Plan& plan, Last last) const;
-  void takeWaits(QueueOrder& order, Plan& plan) const;
+  void takeWaits(SubmissionOrder& order, Plan& plan) const;
   std::optional<uint32_t> onlyWait(const Need& need, const Plan& plan) const;
-  bool met(const QueueOrder& order, const Plan& plan) const;
+  bool met(const SubmissionOrder& order, const Plan& plan) const;
 
   std::vector<WaitStage> stages_;
   std::vector<Need> needs_;
