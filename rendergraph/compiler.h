@@ -53,12 +53,12 @@ enum class Order : uint8_t {
   leastMemory,  ///< Fewest bytes alive at once that are found, never more than declared; up to some milliseconds.
   mostOverlap,  ///< Dependent passes far apart, so that barriers wait for nothing.
   /// In as few groups without a barrier inside as fit in CompileOptions::memoryBudget. Memory changes hands between
-  /// groups only; BarrierPlacement::fewestBatches then needs one batch a group. Up to some milliseconds.
+  /// groups only; BarrierTiming::fewestBatches then needs one batch a group. Up to some milliseconds.
   fewestBatches,
 };
 
 /// Where a barrier stands between the two uses that it separates.
-enum class BarrierPlacement : uint8_t {
+enum class BarrierTiming : uint8_t {
   beforeUse,      ///< As late as possible, so that it waits for as little as possible.
   fewestBatches,  ///< Together with others wherever that is allowed: the smallest number of batches for the order.
 };
@@ -76,7 +76,7 @@ struct CompileOptions {
   /// declared order needs, at least 0. Small: fewest bytes, a batch before nearly every pass; infinity: no more
   /// batches than the longest chain of passes asks for. 1 costs no memory and is usually near that.
   float memoryBudget = 1.0f;
-  BarrierPlacement barriers = BarrierPlacement::beforeUse;
+  BarrierTiming barriers = BarrierTiming::beforeUse;
   /// Barriers whose sides have at least this many steps between them are split into an event that is set and one
   /// that is waited for, so that what lies between fills the wait; 0: none is split.
   uint32_t splitDistance = 0;

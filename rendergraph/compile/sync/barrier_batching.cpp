@@ -13,10 +13,10 @@ namespace lensgraph::rendergraph {
 
 namespace {
 
-class Placing {
+class BarrierBatcher {
  public:
-  Placing(const Declaration& declaration, const CompileOptions& options, const Schedule& schedule,
-          std::span<const QueueFacts> queues, std::vector<FoundBarrier>& found, Plan& plan)
+  BarrierBatcher(const Declaration& declaration, const CompileOptions& options, const Schedule& schedule,
+          std::span<const QueueFacts> queues, std::vector<PendingBarrier>& found, Plan& plan)
       : declaration_(declaration),
         options_(options),
         schedule_(schedule),
@@ -29,7 +29,7 @@ class Placing {
   void run() {
     slotOf_.resize(found_.size());
     if (options_.splitDistance > 0) findEvents();
-    if (options_.barriers == BarrierPlacement::fewestBatches) gather();
+    if (options_.barriers == BarrierTiming::fewestBatches) gather();
     for (uint32_t i = 0; i < found_.size(); ++i) slotOf_[i] = slotFor(found_[i]);
     for (uint32_t i = 0; i < eventOf_.size(); ++i) {
       if (eventOf_[i] != kNone) slotOf_[i] = steps_ + submissions_ + eventOf_[i];
@@ -39,7 +39,7 @@ class Placing {
   }
 
  private:
-  uint32_t queueOf(const FoundBarrier& found) const { return found.step < steps_ ? schedule_.queue[found.step] : 0; }
+  uint32_t queueOf(const PendingBarrier& found) const { return found.step < steps_ ? schedule_.queue[found.step] : 0; }
 
   /// Barriers between the same two steps share an event.
   void findEvents() {
@@ -52,7 +52,7 @@ class Placing {
       return std::pair(found_[a].step, found_[a].setAfter) < std::pair(found_[b].step, found_[b].setAfter);
     });
     for (uint32_t i : split) {
-      const FoundBarrier& found = found_[i];
+      const PendingBarrier& found = found_[i];
       if (plan_.events.empty() || plan_.events.back().waitBefore != found.step ||
           plan_.events.back().setAfter != found.setAfter) {
         plan_.events.push_back({.setAfter = found.setAfter, .waitBefore = found.step});
@@ -64,7 +64,7 @@ class Placing {
   void gather() {
     std::vector<uint32_t> byStep;
     for (uint32_t i = 0; i < found_.size(); ++i) {
-      if (found_[i].submission == FoundBarrier::kNowhere && (eventOf_.empty() || eventOf_[i] == kNone)) {
+      if (found_[i].submission == PendingBarrier::kNowhere && (eventOf_.empty() || eventOf_[i] == kNone)) {
         byStep.push_back(i);
       }
     }
@@ -72,7 +72,7 @@ class Placing {
                      [&](uint32_t a, uint32_t b) { return found_[a].step < found_[b].step; });
     std::vector<uint32_t> latestBatch(schedule_.queues, kNone);
     for (uint32_t i : byStep) {
-      FoundBarrier& found = found_[i];
+      PendingBarrier& found = found_[i];
       uint32_t& batch = latestBatch[queueOf(found)];
       if (batch == kNone || batch < found.earliest) batch = found.step;
       found.step = batch;
@@ -80,8 +80,8 @@ class Placing {
   }
 
   /// Batches are numbered: before steps, at ends of submissions, then events.
-  uint32_t slotFor(const FoundBarrier& found) const {
-    if (found.submission != FoundBarrier::kNowhere) return steps_ + found.submission;
+  uint32_t slotFor(const PendingBarrier& found) const {
+    if (found.submission != PendingBarrier::kNowhere) return steps_ + found.submission;
     return found.step < steps_ ? found.step : steps_ + submissions_ - 1;
   }
 
@@ -145,7 +145,7 @@ class Placing {
   const CompileOptions& options_;
   const Schedule& schedule_;
   std::span<const QueueFacts> queues_;
-  std::vector<FoundBarrier>& found_;
+  std::vector<PendingBarrier>& found_;
   Plan& plan_;
   const uint32_t steps_, submissions_;
   std::vector<uint32_t> slotOf_;   // By barrier.
@@ -154,10 +154,10 @@ class Placing {
 
 }  // namespace
 
-bool isSplit(const FoundBarrier& found, const CompileOptions& options, const Schedule& schedule,
+bool isSplit(const PendingBarrier& found, const CompileOptions& options, const Schedule& schedule,
              std::span<const QueueFacts> queues) {
   if (options.splitDistance == 0) return false;
-  if (found.setAfter == FoundBarrier::kNowhere || found.submission != FoundBarrier::kNowhere) return false;
+  if (found.setAfter == PendingBarrier::kNowhere || found.submission != PendingBarrier::kNowhere) return false;
   if (found.step >= schedule.steps() || found.step - found.setAfter - 1 < options.splitDistance) return false;
   constexpr VkPipelineStageFlags2 kHost = VK_PIPELINE_STAGE_2_HOST_BIT;  // Events do not know the host.
   if (((found.barrier.from.stages | found.barrier.to.stages) & kHost) != 0) return false;
@@ -165,9 +165,9 @@ bool isSplit(const FoundBarrier& found, const CompileOptions& options, const Sch
   return queue.graphics || queue.compute;  // Others have no events.
 }
 
-void placeBarriers(const Declaration& declaration, const CompileOptions& options, const Schedule& schedule,
-                   std::span<const QueueFacts> queues, std::vector<FoundBarrier>& found, Plan& plan) {
-  Placing(declaration, options, schedule, queues, found, plan).run();
+void batchBarriers(const Declaration& declaration, const CompileOptions& options, const Schedule& schedule,
+                   std::span<const QueueFacts> queues, std::vector<PendingBarrier>& found, Plan& plan) {
+  BarrierBatcher(declaration, options, schedule, queues, found, plan).run();
 }
 
 }  // namespace lensgraph::rendergraph

@@ -16,7 +16,7 @@ struct Declaration;
 struct Schedule;
 
 /// A barrier and the steps before which it may stand.
-struct FoundBarrier {
+struct PendingBarrier {
   static constexpr uint32_t kNowhere = std::numeric_limits<uint32_t>::max();
   uint32_t step = 0;               ///< The latest: that of the use that it protects; the number of steps: at the end.
   uint32_t earliest = 0;           ///< After the last use that it waits for.
@@ -26,11 +26,11 @@ struct FoundBarrier {
 };
 
 /// Whether the two sides of a barrier become an event's set and wait.
-bool isSplit(const FoundBarrier& found, const CompileOptions& options, const Schedule& schedule,
+bool isSplit(const PendingBarrier& found, const CompileOptions& options, const Schedule& schedule,
              std::span<const QueueFacts> queues);
 
 /// Fills the barriers, batches and events of the plan. Precondition: its passes and submissions are complete.
-void placeBarriers(const Declaration& declaration, const CompileOptions& options, const Schedule& schedule,
-                   std::span<const QueueFacts> queues, std::vector<FoundBarrier>& found, Plan& plan);
+void batchBarriers(const Declaration& declaration, const CompileOptions& options, const Schedule& schedule,
+                   std::span<const QueueFacts> queues, std::vector<PendingBarrier>& found, Plan& plan);
 
 }  // namespace lensgraph::rendergraph

@@ -67,7 +67,7 @@ void BarrierPlanner::run() {
     trimming_->trimEnds(all_);
     trimming_->trimWaits(plan_);
   }
-  placeBarriers(in_.declaration, in_.options, in_.schedule, in_.queues, all_, plan_);
+  batchBarriers(in_.declaration, in_.options, in_.schedule, in_.queues, all_, plan_);
 }
 
 void BarrierPlanner::findPredecessors() {
@@ -303,7 +303,7 @@ void BarrierPlanner::separate(uint32_t resource, uint32_t cell, const CellState&
 
 void BarrierPlanner::add(uint32_t resource, uint32_t cell, const Epoch& epoch, const CellState& state,
                          ImageBarrier barrier, VkAccessFlags2 access) {
-  FoundBarrier& found = found_.emplace_back();
+  PendingBarrier& found = found_.emplace_back();
   found.step = epoch.uses.front().step;
   if (state.fixed) {
     found.earliest = found.step;

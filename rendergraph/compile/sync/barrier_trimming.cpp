@@ -29,9 +29,9 @@ BarrierTrimming::BarrierTrimming(const BarrierInputs& inputs, const Plan& plan)
       order_(plan, inputs.schedule.queues, endsWithHost(inputs, plan), inputs.options.overlappingFrames),
       hazards_(inputs, plan, order_) {}
 
-TimedBarrier BarrierTrimming::timed(const FoundBarrier& found) const {
+TimedBarrier BarrierTrimming::timed(const PendingBarrier& found) const {
   TimedBarrier result{.barrier = found.barrier, .step = found.step};
-  if (found.submission != FoundBarrier::kNowhere) {
+  if (found.submission != PendingBarrier::kNowhere) {
     result.queue = plan_.submissions[found.submission].queue;
     result.submission = result.scopeEnds = result.takesEffect = found.submission;
     result.step = 0;
@@ -41,16 +41,16 @@ TimedBarrier BarrierTrimming::timed(const FoundBarrier& found) const {
   result.queue = atEnd ? 0 : in_.schedule.queue[found.step];
   result.submission = atEnd ? lastSubmission_ : in_.submissions.of[found.step];
   result.scopeEnds = result.takesEffect = result.submission;
-  const uint32_t earliest = found.setAfter == FoundBarrier::kNowhere ? 0 : in_.submissions.of[found.setAfter];
+  const uint32_t earliest = found.setAfter == PendingBarrier::kNowhere ? 0 : in_.submissions.of[found.setAfter];
   if (isSplit(found, in_.options, in_.schedule, in_.queues)) {
     result.scopeEnds = earliest;
-  } else if (in_.options.barriers == BarrierPlacement::fewestBatches && found.earliest < found.step) {
+  } else if (in_.options.barriers == BarrierTiming::fewestBatches && found.earliest < found.step) {
     result.scopeEnds = result.takesEffect = earliest;
   }
   return result;
 }
 
-void BarrierTrimming::trim(const Epoch& epoch, std::vector<FoundBarrier>& found, std::size_t first) {
+void BarrierTrimming::trim(const Epoch& epoch, std::vector<PendingBarrier>& found, std::size_t first) {
   barriers_.clear();
   for (std::size_t i = first; i < found.size(); ++i) barriers_.push_back(timed(found[i]));
   hazards_.startEpoch(epoch);
@@ -62,7 +62,7 @@ void BarrierTrimming::trim(const Epoch& epoch, std::vector<FoundBarrier>& found,
   for (std::size_t i = first; i < found.size(); ++i) {
     if (barriers_[i - first].absent) continue;
     found[kept] = found[i];
-    if (!isSplit(found[i], in_.options, in_.schedule, in_.queues)) found[kept].setAfter = FoundBarrier::kNowhere;
+    if (!isSplit(found[i], in_.options, in_.schedule, in_.queues)) found[kept].setAfter = PendingBarrier::kNowhere;
     found[kept++].barrier = barriers_[i - first].barrier;
   }
   found.resize(kept);
@@ -74,15 +74,15 @@ bool BarrierTrimming::again() {
   return true;
 }
 
-void BarrierTrimming::trimEnds(std::vector<FoundBarrier>& found) const {
-  for (FoundBarrier& barrier : found) {
+void BarrierTrimming::trimEnds(std::vector<PendingBarrier>& found) const {
+  for (PendingBarrier& barrier : found) {
     const uint32_t resource = barrier.barrier.resource;
     if (isEnd(barrier) && !hazards_.needsEndStage(resource)) barrier.barrier.to.stages &= ~endStages(resource);
   }
 }
 
-bool BarrierTrimming::isEnd(const FoundBarrier& found) const {
-  return found.step >= in_.schedule.steps() && found.submission == FoundBarrier::kNowhere;
+bool BarrierTrimming::isEnd(const PendingBarrier& found) const {
+  return found.step >= in_.schedule.steps() && found.submission == PendingBarrier::kNowhere;
 }
 
 /// At which the graph's last barrier of the resource may end for the sake of the next frame only.

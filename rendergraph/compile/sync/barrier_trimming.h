@@ -29,19 +29,19 @@ class BarrierTrimming {
     hazards_.startCell(resource, cell, predecessors);
   }
   /// `found` from the index on are the barriers that the epoch needs when nothing else orders it.
-  void trim(const Epoch& epoch, std::vector<FoundBarrier>& found, std::size_t first);
+  void trim(const Epoch& epoch, std::vector<PendingBarrier>& found, std::size_t first);
   /// After the last cell: whether they must all be gone through once more.
   bool again();
   /// After the last cell: of all barriers, those at the end lose the stages that only the next frame might have needed.
-  void trimEnds(std::vector<FoundBarrier>& found) const;
+  void trimEnds(std::vector<PendingBarrier>& found) const;
   /// After the last cell: leaves the waits that what is left of the barriers relies on.
   void trimWaits(Plan& plan) { needs_.minimize(order_, plan); }
 
  private:
-  TimedBarrier timed(const FoundBarrier& found) const;
+  TimedBarrier timed(const PendingBarrier& found) const;
   template <class Member>
   void trimBits(TimedBarrier& barrier, Member member, uint64_t except = 0);
-  bool isEnd(const FoundBarrier& found) const;
+  bool isEnd(const PendingBarrier& found) const;
   VkPipelineStageFlags2 endStages(uint32_t resource) const;
   void trim(TimedBarrier& barrier);
 

@@ -8,7 +8,7 @@ namespace lensgraph::rendergraph {
 
 namespace {
 
-auto meaningOf(const FoundBarrier& found) {
+auto meaningOf(const PendingBarrier& found) {
   const ImageBarrier& b = found.barrier;
   // A release and its acquire must name the same range, so neither is joined to others.
   const bool transfer = b.reason == BarrierReason::release || b.reason == BarrierReason::acquire;
@@ -20,8 +20,8 @@ auto meaningOf(const FoundBarrier& found) {
 
 /// `key` sorts barriers so that those to be joined stand side by side; `join` extends the first by the second.
 template <class Key, class Join>
-void sweep(std::vector<FoundBarrier>& barriers, Key&& key, Join&& join) {
-  std::sort(barriers.begin(), barriers.end(), [&](const FoundBarrier& a, const FoundBarrier& b) {
+void sweep(std::vector<PendingBarrier>& barriers, Key&& key, Join&& join) {
+  std::sort(barriers.begin(), barriers.end(), [&](const PendingBarrier& a, const PendingBarrier& b) {
     return std::tuple(meaningOf(a), key(a.barrier.range)) < std::tuple(meaningOf(b), key(b.barrier.range));
   });
   std::size_t kept = 0;
@@ -35,7 +35,7 @@ void sweep(std::vector<FoundBarrier>& barriers, Key&& key, Join&& join) {
 
 }  // namespace
 
-void mergeRanges(std::vector<FoundBarrier>& barriers) {
+void mergeRanges(std::vector<PendingBarrier>& barriers) {
   if (barriers.size() < 2) return;
   sweep(
       barriers, [](const Subresources& r) { return std::tuple(r.aspects, r.firstMip, r.firstLayer); },

@@ -8,6 +8,6 @@
 namespace lensgraph::rendergraph {
 
 /// All barriers concern one resource. Afterwards they are sorted by step.
-void mergeRanges(std::vector<FoundBarrier>& barriers);
+void mergeRanges(std::vector<PendingBarrier>& barriers);
 
 }  // namespace lensgraph::rendergraph

@@ -318,7 +318,7 @@ TEST(StructuralHash, MissesNoFieldThatThePlanDependsOn) {
       {"order", [](Fields& f) { f.options.order = Order::leastMemory; }},
       {"memory budget", [](Fields& f) { f.options.memoryBudget = 1.5f; }},
       {"disabled", [](Fields& f) { f.disabled = true; }},
-      {"barrier placement", [](Fields& f) { f.options.barriers = BarrierPlacement::fewestBatches; }},
+      {"barrier placement", [](Fields& f) { f.options.barriers = BarrierTiming::fewestBatches; }},
       {"split distance", [](Fields& f) { f.options.splitDistance = 2; }},
       {"merging", [](Fields& f) { f.options.mergeRasterPasses = false; }},
       {"queues", [](Fields& f) { f.options.useQueues = false; }},

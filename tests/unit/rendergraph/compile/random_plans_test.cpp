@@ -43,7 +43,7 @@ struct Case {
     declareRandom(graph, seed, passes, vary == Vary::everyOption && seed % 3 == 0);
     options = {.order = kOrders[seed % 5], .memoryBudget = kBudgets[seed / 5 % 4], .aliasing = kAliasings[seed % 4]};
     if (vary == Vary::someOptions) return;
-    options.barriers = seed % 11 < 4 ? BarrierPlacement::fewestBatches : BarrierPlacement::beforeUse;
+    options.barriers = seed % 11 < 4 ? BarrierTiming::fewestBatches : BarrierTiming::beforeUse;
     options.splitDistance = kDistances[seed / 3 % 4];
     options.mergeRasterPasses = seed % 13 != 0;
     options.useQueues = seed % 17 != 0;
@@ -98,7 +98,7 @@ void expectNothingSuperfluous(Vary vary) {
   uint64_t attempts = 0, severalQueues = 0, waits = 0;
   for (uint32_t seed = 100000; seed < 100000 + kGraphs; ++seed) {
     Case random(seed, vary);
-    random.options.barriers = BarrierPlacement::beforeUse;
+    random.options.barriers = BarrierTiming::beforeUse;
     const Plan plan = random.compile();
     const plan_checker::Superfluous superfluous = plan_checker::findSuperfluous(random.setting(plan));
     ASSERT_TRUE(superfluous.findings.empty()) << "seed " << seed << ": " << superfluous.findings.front();
@@ -140,7 +140,7 @@ TEST(RandomPlans, BatchesAreTheFewest) {
   constexpr uint32_t kGraphs = 1000;
   for (uint32_t seed = 200000; seed < 200000 + kGraphs; ++seed) {
     Case random(seed, Vary::everyOption, 40);
-    random.options.barriers = BarrierPlacement::fewestBatches;
+    random.options.barriers = BarrierTiming::fewestBatches;
     random.options.splitDistance = 0;
     random.options.useQueues = false;
     const Plan plan = random.compile();
