@@ -39,14 +39,14 @@ class GroupScheduler {
       : order_(order),
         passes_(passes),
         direction_(direction),
-        waiting_(edges, passes, direction == Direction::backward),
+        ready_(edges, passes, direction == Direction::backward),
         bytes_(use, direction) {}
 
   /// The longest way to the end (or start), by pass.
   Priorities wayToGo() const {
     Priorities way(passes_, 0);
     const auto visit = [&](uint32_t pass) {
-      waiting_.forEachNext(pass, [&](uint32_t next) { way[pass] = std::max(way[pass], way[next] + kStep); });
+      ready_.forEachNext(pass, [&](uint32_t next) { way[pass] = std::max(way[pass], way[next] + kStep); });
     };
     if (direction_ == Direction::forward) {
       std::for_each(order_.rbegin(), order_.rend(), visit);
@@ -58,11 +58,11 @@ class GroupScheduler {
 
   Grouping run(const Priorities& priorities, int64_t budget) {
     Grouping result{.groupOf = std::vector<uint32_t>(passes_, 0)};
-    waiting_.reset();
+    ready_.reset();
     bytes_.reset();
     ready_.clear();
     for (uint32_t pass : order_) {
-      if (waiting_.ready(pass)) ready_.emplace_back(priorities[pass], ~pass);
+      if (ready_.ready(pass)) ready_.emplace_back(priorities[pass], ~pass);
     }
     std::make_heap(ready_.begin(), ready_.end());
     for (; !ready_.empty(); ++result.groups) {
@@ -72,7 +72,7 @@ class GroupScheduler {
         result.groupOf[pass] = result.groups;
         result.lateness += result.groups;
         bytes_.end(pass);
-        waiting_.finish(pass, [&](uint32_t next) { push({priorities[next], ~next}); });
+        ready_.finish(pass, [&](uint32_t next) { push({priorities[next], ~next}); });
       }
     }
     result.excess = std::max<int64_t>(0, result.peak - budget);
@@ -130,7 +130,7 @@ class GroupScheduler {
   std::span<const uint32_t> order_;
   uint32_t passes_;
   Direction direction_;
-  Waiting waiting_;
+  ReadyPasses ready_;
   LiveBytes bytes_;
   std::vector<Candidate> ready_, passedOver_;
   std::vector<uint32_t> members_;

@@ -21,11 +21,11 @@ namespace {
 std::vector<uint32_t> byPriority(std::span<const uint8_t> alive, std::span<const Edge> edges,
                                  const std::function<uint32_t(uint32_t)>& key) {
   const auto passes = static_cast<uint32_t>(alive.size());
-  Waiting waiting(edges, passes);
+  ReadyPasses ready(edges, passes);
   using Entry = std::pair<uint32_t, uint32_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> ready;
   for (uint32_t pass = 0; pass < passes; ++pass) {
-    if (alive[pass] && waiting.ready(pass)) ready.push({key(pass), pass});
+    if (alive[pass] && ready.ready(pass)) ready.push({key(pass), pass});
   }
   std::vector<uint32_t> order;
   order.reserve(passes);
@@ -33,7 +33,7 @@ std::vector<uint32_t> byPriority(std::span<const uint8_t> alive, std::span<const
     const uint32_t pass = ready.top().second;
     ready.pop();
     order.push_back(pass);
-    waiting.finish(pass, [&](uint32_t next) { ready.push({key(next), next}); });
+    ready.finish(pass, [&](uint32_t next) { ready.push({key(next), next}); });
   }
   return order;
 }
@@ -65,11 +65,11 @@ class GreedyMemory {
  public:
   GreedyMemory(const MemoryUse& use, std::span<const uint8_t> alive, std::span<const Edge> edges)
       : use_(use),
-        waiting_(edges, static_cast<uint32_t>(alive.size())),
+        ready_(edges, static_cast<uint32_t>(alive.size())),
         bytes_(use, Direction::forward),
         done_(alive.size(), 0) {
     for (uint32_t pass = 0; pass < alive.size(); ++pass) {
-      if (alive[pass] && waiting_.ready(pass)) push(pass);
+      if (alive[pass] && ready_.ready(pass)) push(pass);
     }
   }
 
@@ -82,7 +82,7 @@ class GreedyMemory {
       done_[pass] = 1;
       order.push_back(pass);
       run(pass);
-      waiting_.finish(pass, [&](uint32_t next) { push(next); });
+      ready_.finish(pass, [&](uint32_t next) { push(next); });
     }
     return order;
   }
@@ -109,13 +109,13 @@ class GreedyMemory {
     bytes_.end(pass);
     for (uint32_t resource : changed_) {
       for (uint32_t user : use_.usersOf(resource)) {
-        if (!done_[user] && waiting_.ready(user)) push(user);
+        if (!done_[user] && ready_.ready(user)) push(user);
       }
     }
   }
 
   const MemoryUse& use_;
-  Waiting waiting_;
+  ReadyPasses ready_;
   LiveBytes bytes_;
   std::vector<uint8_t> done_;
   std::vector<uint32_t> changed_;

@@ -9,10 +9,10 @@
 
 namespace lensgraph::rendergraph {
 
-class Waiting {
+class ReadyPasses {
  public:
   /// Backward: every edge is turned round. `edges` must outlive this.
-  Waiting(std::span<const Edge> edges, uint32_t passes, bool backward = false)
+  ReadyPasses(std::span<const Edge> edges, uint32_t passes, bool backward = false)
       : backward_(backward),
         next_(edges, passes, backward ? Adjacency::By::to : Adjacency::By::from),
         count_(passes, 0) {
