@@ -54,7 +54,7 @@ std::vector<uint32_t> anyOrder(const Declaration& declaration, const Cells& cell
 }
 
 PassOrder chosenOrder(const Declaration& declaration, const Cells& cells, const std::vector<uint8_t>& alive,
-                      const std::vector<ResourceUse>& uses, std::vector<uint32_t> sequence,
+                      const std::vector<ResourceNeed>& uses, std::vector<uint32_t> sequence,
                       const CompileOptions& options) {
   if (options.order == Order::declared) {
     std::erase_if(sequence, [&](uint32_t pass) { return !alive[pass]; });
@@ -62,7 +62,7 @@ PassOrder chosenOrder(const Declaration& declaration, const Cells& cells, const 
   }
   std::vector<VkDeviceSize> bytes;
   bytes.reserve(uses.size());
-  for (const ResourceUse& use : uses) bytes.push_back(use.requirements.size);
+  for (const ResourceNeed& use : uses) bytes.push_back(use.requirements.size);
   return orderPasses(declaration, alive, orderingEdges(declaration, cells, alive), bytes, options);
 }
 
@@ -83,7 +83,7 @@ Plan compile(const Declaration& declaration, const CompileOptions& options, cons
   }
   std::vector<uint32_t> sequence = anyOrder(declaration, cells);
   Culling culling = cull(declaration, cells, sequence);
-  const std::vector<ResourceUse> uses = findUses(declaration, culling.alive, device);
+  const std::vector<ResourceNeed> uses = findResourceNeeds(declaration, culling.alive, device);
 
   Schedule schedule;
   PassOrder order = chosenOrder(declaration, cells, culling.alive, uses, std::move(sequence), options);

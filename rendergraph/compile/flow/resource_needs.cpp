@@ -4,34 +4,34 @@
 
 namespace lensgraph::rendergraph {
 
-std::vector<ResourceUse> findUses(const Declaration& declaration, std::span<const uint8_t> alive,
+std::vector<ResourceNeed> findResourceNeeds(const Declaration& declaration, std::span<const uint8_t> alive,
                                   const DeviceFacts& device) {
-  std::vector<ResourceUse> uses(declaration.resources.size());
+  std::vector<ResourceNeed> needs(declaration.resources.size());
   for (const DeclaredAccess& access : declaration.accesses) {
     if (!alive[access.pass]) continue;
     const AccessRules& rules = rulesOf(access.usage, access.mode);
-    ResourceUse& use = uses[access.resource];
-    use.used = true;
-    use.image |= rules.imageUsage;
-    use.buffer |= rules.bufferUsage;
+    ResourceNeed& need = needs[access.resource];
+    need.used = true;
+    need.image |= rules.imageUsage;
+    need.buffer |= rules.bufferUsage;
   }
-  for (uint32_t index = 0; index < uses.size(); ++index) {
+  for (uint32_t index = 0; index < needs.size(); ++index) {
     const DeclaredResource& resource = declaration.resources[index];
-    ResourceUse& use = uses[index];
-    if (!use.used) continue;
+    ResourceNeed& need = needs[index];
+    if (!need.used) continue;
     // The executor zeroes what it keeps.
     if (resource.isImage) {
-      use.image |= resource.image.extraUsage | (resource.retained() ? VK_IMAGE_USAGE_TRANSFER_DST_BIT : 0);
-      use.buffer = 0;
+      need.image |= resource.image.extraUsage | (resource.retained() ? VK_IMAGE_USAGE_TRANSFER_DST_BIT : 0);
+      need.buffer = 0;
     } else {
-      use.buffer |= resource.buffer.extraUsage | (resource.retained() ? VK_BUFFER_USAGE_TRANSFER_DST_BIT : 0);
-      use.image = 0;
+      need.buffer |= resource.buffer.extraUsage | (resource.retained() ? VK_BUFFER_USAGE_TRANSFER_DST_BIT : 0);
+      need.image = 0;
     }
     if (!resource.created()) continue;
-    use.requirements = resource.isImage ? device.requirements(resource.image, use.image)
-                                        : device.requirements(resource.buffer, use.buffer);
+    need.requirements = resource.isImage ? device.requirements(resource.image, need.image)
+                                        : device.requirements(resource.buffer, need.buffer);
   }
-  return uses;
+  return needs;
 }
 
 }  // namespace lensgraph::rendergraph

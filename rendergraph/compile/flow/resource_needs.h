@@ -11,7 +11,7 @@ namespace lensgraph::rendergraph {
 
 struct Declaration;
 
-struct ResourceUse {
+struct ResourceNeed {
   bool used = false;
   VkImageUsageFlags image = 0;
   VkBufferUsageFlags buffer = 0;
@@ -19,7 +19,7 @@ struct ResourceUse {
 };
 
 /// By resource.
-std::vector<ResourceUse> findUses(const Declaration& declaration, std::span<const uint8_t> alive,
+std::vector<ResourceNeed> findResourceNeeds(const Declaration& declaration, std::span<const uint8_t> alive,
                                   const DeviceFacts& device);
 
 }  // namespace lensgraph::rendergraph

@@ -16,7 +16,7 @@ namespace {
 
 class Placer {
  public:
-  Placer(const Declaration& declaration, std::span<const ResourceUse> uses, std::span<const Sharing> sharing,
+  Placer(const Declaration& declaration, std::span<const ResourceNeed> uses, std::span<const Sharing> sharing,
          const Schedule& schedule, const Submissions& submissions, Plan& plan)
       : declaration_(declaration),
         uses_(uses),
@@ -58,7 +58,7 @@ class Placer {
 
   void add(uint32_t index) {
     const DeclaredResource& resource = declaration_.resources[index];
-    const ResourceUse& use = uses_[index];
+    const ResourceNeed& use = uses_[index];
     if (!use.used || resource.imported()) return;
     const bool concurrent = !sharing_.empty() && sharing_[index] == Sharing::concurrent;
     if (resource.retained()) {
@@ -153,7 +153,7 @@ class Placer {
   }
 
   const Declaration& declaration_;
-  std::span<const ResourceUse> uses_;
+  std::span<const ResourceNeed> uses_;
   std::span<const Sharing> sharing_;
   const Schedule& schedule_;
   const Submissions& submissions_;
@@ -166,7 +166,7 @@ class Placer {
 
 }  // namespace
 
-void placeResources(const Declaration& declaration, std::span<const ResourceUse> uses, std::span<const Sharing> sharing,
+void placeResources(const Declaration& declaration, std::span<const ResourceNeed> uses, std::span<const Sharing> sharing,
                     const Schedule& schedule, const Submissions& submissions, Aliasing aliasing, Plan& plan) {
   Placer placer(declaration, uses, sharing, schedule, submissions, plan);
   placer.addAll();

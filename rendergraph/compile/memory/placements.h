@@ -14,7 +14,7 @@ struct Schedule;
 struct Submissions;
 
 /// Fills Plan::placements, heaps, retained and memory. `sharing` is empty on one queue.
-void placeResources(const Declaration& declaration, std::span<const ResourceUse> uses, std::span<const Sharing> sharing,
+void placeResources(const Declaration& declaration, std::span<const ResourceNeed> uses, std::span<const Sharing> sharing,
                     const Schedule& schedule, const Submissions& submissions, Aliasing aliasing, Plan& plan);
 
 }  // namespace lensgraph::rendergraph
