@@ -22,9 +22,9 @@ struct Interval {
 constexpr VkDeviceSize kEndless = ~VkDeviceSize{0} >> 1;
 
 /// Items by the steps at which they begin and end to be alive.
-class Schedule {
+class PackingOrder {
  public:
-  explicit Schedule(std::span<const AliasItem> items) : items_(items) {
+  explicit PackingOrder(std::span<const AliasItem> items) : items_(items) {
     for (const AliasItem& item : items) steps_ = std::max(steps_, item.last + 1);
     bornStarts_.assign(steps_ + 1, 0);
     diedStarts_.assign(steps_ + 1, 0);
@@ -140,7 +140,7 @@ class Outward {
  public:
   enum class Stack { oldestFirst, longestLivedFirst };
 
-  Outward(std::span<const AliasItem> items, const Schedule& schedule) : items_(items), schedule_(schedule) {
+  Outward(std::span<const AliasItem> items, const PackingOrder& schedule) : items_(items), schedule_(schedule) {
     for (uint32_t step = 0; step <= schedule.peakStep(); ++step) {
       for (uint32_t item : schedule.bornAt(step)) {
         if (items[item].last >= schedule.peakStep()) crowd_.push_back(item);
@@ -201,7 +201,7 @@ class Outward {
   }
 
   std::span<const AliasItem> items_;
-  const Schedule& schedule_;
+  const PackingOrder& schedule_;
   std::vector<uint32_t> crowd_, sorted_;
   std::vector<Interval> around_;
   FreeGaps gaps_;
@@ -210,7 +210,7 @@ class Outward {
 /// Largest first. Items are renamed by their rank, so that a pair's later item is the one with the larger number.
 class LargestFirst {
  public:
-  LargestFirst(std::span<const AliasItem> items, const Schedule& schedule) : items_(items) {
+  LargestFirst(std::span<const AliasItem> items, const PackingOrder& schedule) : items_(items) {
     const auto count = static_cast<uint32_t>(items.size());
     ranking_.resize(count);
     std::iota(ranking_.begin(), ranking_.end(), 0u);
@@ -239,7 +239,7 @@ class LargestFirst {
     uint32_t later, earlier;  // Ranks.
   };
 
-  void findConflicts(const Schedule& schedule) {
+  void findConflicts(const PackingOrder& schedule) {
     const auto count = static_cast<uint32_t>(items_.size());
     std::vector<uint32_t> rankOf(count), positions(count), active;
     for (uint32_t rank = 0; rank < count; ++rank) rankOf[ranking_[rank]] = rank;
@@ -307,7 +307,7 @@ Packing smaller(Packing a, Packing b) {
 }
 
 Packing packShared(std::span<const AliasItem> items) {
-  const Schedule schedule(items);
+  const PackingOrder schedule(items);
   if (schedule.overlappingPairs() <= kFewNeighbours * items.size()) return LargestFirst(items, schedule).pack();
   Outward outward(items, schedule);
   Packing packing = outward.pack(Outward::Stack::oldestFirst);
