@@ -12,7 +12,7 @@
 namespace lensgraph::rendergraph {
 
 ExecutorState::ExecutorState(Backend& device, const ExecutorOptions& chosen)
-    : backend(device), options(chosen), retained(device, graveyard), slots(chosen.framesInFlight), frame(device) {
+    : backend(device), options(chosen), retained(device, deletionQueue), slots(chosen.framesInFlight), frame(device) {
   for (uint32_t i = 0; i < slots.size(); ++i) slots[i].index = i;
 }
 
@@ -48,8 +48,8 @@ FrameSlot& ExecutorState::openSlot() {
   FrameSlot& slot = slots[lastFrame % slots.size()];
   if (slot.state == FrameSlot::State::submitted) waitFor(slot.frame);
   slot.state = FrameSlot::State::idle;  // A recorded one has finished: the host has promised it.
-  graveyard.release(finishedFrame());
-  graveyard.setLastUser(lastFrame);
+  deletionQueue.release(finishedFrame());
+  deletionQueue.setLastUser(lastFrame);
   slot.importedViews.clear();
   slot.exports.serial = 0;
   slot.sent.clear();
@@ -79,7 +79,7 @@ void ExecutorState::makeResources(const Declaration& declaration, uint32_t slot)
     // The other plans' objects may be what fills the memory; without them it gets one more chance.
     plans.releaseResources(1);
     waitForAll();
-    graveyard.release(finishedFrame());
+    deletionQueue.release(finishedFrame());
     try {
       current->resources->prepare(backend, pool, declaration, current->plan, slot);
     } catch (const GraphError&) {
@@ -147,7 +147,7 @@ void ExecutorState::closeSlot(FrameSlot& slot, FrameSlot::State state) {
   slot.state = state;
   lastHash = current->hash;
   frame.declaration = nullptr;
-  graveyard.setLastUser(lastFrame);
+  deletionQueue.setLastUser(lastFrame);
 }
 
 void ExecutorState::abandon(FrameSlot& slot) noexcept {
@@ -165,7 +165,7 @@ void ExecutorState::abandon(FrameSlot& slot) noexcept {
     slot.frame = ++lastFrame;
     slot.state = FrameSlot::State::submitted;
     slot.stamped.clear();
-    graveyard.setLastUser(lastFrame);
+    deletionQueue.setLastUser(lastFrame);
   }
 }
 
@@ -185,7 +185,7 @@ void ExecutorState::finish(FrameSlot& slot) {
   waitForDevice(slot, slot.sent);
   slot.state = FrameSlot::State::idle;
   slot.importedViews.clear();
-  graveyard.release(finishedFrame());
+  deletionQueue.release(finishedFrame());
   readStamps(slot);
   slot.capture.frameWallMs = millisecondsSince(slot.start);
   std::swap(capture, slot.capture);
@@ -270,7 +270,7 @@ void ExecutorState::forget() {
   }
   retained.clear();
   plans.clear();
-  graveyard.release(std::numeric_limits<uint64_t>::max());
+  deletionQueue.release(std::numeric_limits<uint64_t>::max());
 }
 
 }  // namespace lensgraph::rendergraph

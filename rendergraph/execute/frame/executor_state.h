@@ -40,9 +40,9 @@ struct ExecutorState {
   Backend& backend;
   ExecutorOptions options;
   std::vector<QueueTimeline> timelines;  // By queue; made with the first submission.
-  Graveyard graveyard;
+  DeletionQueue deletionQueue;
   HeapPool pool;
-  PlanCache plans{graveyard};
+  PlanCache plans{deletionQueue};
   RetainedStore retained;
   std::vector<FrameSlot> slots;
 

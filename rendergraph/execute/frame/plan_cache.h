@@ -21,7 +21,7 @@ struct CachedPlan {
 class PlanCache {
  public:
   /// Frames in flight may use the objects that the cache gives up.
-  explicit PlanCache(Graveyard& graveyard) : graveyard_(graveyard) {}
+  explicit PlanCache(DeletionQueue& deletionQueue) : deletionQueue_(deletionQueue) {}
 
   /// The plan with this hash, moved to the front; null when there is none.
   CachedPlan* find(uint64_t hash) {
@@ -39,7 +39,7 @@ class PlanCache {
   /// Gives up the objects of all plans but the `keep` used last.
   void releaseResources(std::size_t keep) {
     for (std::size_t i = keep; i < plans_.size(); ++i) {
-      if (plans_[i]->resources) graveyard_.add(std::move(plans_[i]->resources));
+      if (plans_[i]->resources) deletionQueue_.add(std::move(plans_[i]->resources));
     }
   }
   void clear() {
@@ -53,7 +53,7 @@ class PlanCache {
   static constexpr std::size_t kWithResources = 3;
 
  private:
-  Graveyard& graveyard_;
+  DeletionQueue& deletionQueue_;
   std::vector<std::unique_ptr<CachedPlan>> plans_;
 };
 

@@ -8,7 +8,7 @@
 
 namespace lensgraph::rendergraph {
 
-class Graveyard {
+class DeletionQueue {
  public:
   /// Objects added from now on are needed by frames up to this one.
   void setLastUser(uint64_t frame) { lastUser_ = frame; }

@@ -47,7 +47,7 @@ RetainedStore::Entry& RetainedStore::entryFor(const DeclaredResource& resource, 
 
 void RetainedStore::retire(Entry& entry) {
   for (Side& side : entry.sides) {
-    if (side.heap) graveyard_.add(std::move(side));
+    if (side.heap) deletionQueue_.add(std::move(side));
     side = Side{};
   }
 }

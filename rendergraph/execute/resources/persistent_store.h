@@ -22,7 +22,7 @@ struct DeclaredResource;
 class RetainedStore {
  public:
   /// Frames in flight may use what is replaced.
-  RetainedStore(Backend& backend, Graveyard& graveyard) : backend_(backend), graveyard_(graveyard) {}
+  RetainedStore(Backend& backend, DeletionQueue& deletionQueue) : backend_(backend), deletionQueue_(deletionQueue) {}
 
   /// Makes what the plan needs and does not exist, or has another description or too few usage flags; enters all of it
   /// into the table. Throws GraphError (outOfMemory, device) that names the resource.
@@ -78,7 +78,7 @@ class RetainedStore {
   void barrier(const CommandStream& commands, const Current& current, VkImageLayout from, VkImageLayout to);
 
   Backend& backend_;
-  Graveyard& graveyard_;
+  DeletionQueue& deletionQueue_;
   std::map<std::string, Entry, std::less<>> entries_;
   std::vector<Current> current_;
 };
