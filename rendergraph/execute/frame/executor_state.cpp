@@ -32,7 +32,7 @@ void ExecutorState::makeTimelines() {
   timelines.reserve(queues);
   while (timelines.size() < queues) {
     const std::string name = "graph queue " + std::to_string(timelines.size());
-    timelines.push_back({.semaphore = OwnedTimeline(backend, backend.createTimeline(name)), .value = 0});
+    timelines.push_back({.semaphore = UniqueTimeline(backend, backend.createTimeline(name)), .value = 0});
   }
 }
 
@@ -54,7 +54,7 @@ FrameSlot& ExecutorState::openSlot() {
   slot.exports.serial = 0;
   slot.sent.clear();
   slot.stamped.clear();
-  for (const OwnedRecorder& recorder : slot.recorders) {
+  for (const UniqueRecorder& recorder : slot.recorders) {
     if (recorder) backend.resetRecorder(recorder.get());
   }
   return slot;
@@ -128,7 +128,7 @@ void ExecutorState::openTimestamps(FrameSlot& slot) {
   const auto steps = std::min(kMaxSteps, static_cast<uint32_t>(frame.plan->passes.size()));
   if (slot.timestampSteps < steps) {
     const std::string name = "graph frame " + std::to_string(slot.index) + ", timestamps";
-    slot.timestamps = OwnedTimestamps(backend, backend.createTimestamps(2 * steps, name));
+    slot.timestamps = UniqueTimestamps(backend, backend.createTimestamps(2 * steps, name));
     slot.timestampSteps = steps;
   }
   if (steps > 0) backend.resetTimestamps(slot.timestamps.get(), 2 * steps);

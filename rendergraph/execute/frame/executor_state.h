@@ -28,7 +28,7 @@ struct Chunk {
 };
 
 struct QueueTimeline {
-  OwnedTimeline semaphore;
+  UniqueTimeline semaphore;
   uint64_t value = 0;  // Of the last submission that was accepted.
 };
 

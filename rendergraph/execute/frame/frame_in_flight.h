@@ -41,8 +41,8 @@ struct FrameSlot {
   uint32_t index = 0;
   uint64_t frame = 0;  // Number of the latest one.
   std::vector<SentSubmission> sent;
-  std::vector<OwnedRecorder> recorders;  // By lane, then by queue. None for pairs that never occurred.
-  OwnedTimestamps timestamps;
+  std::vector<UniqueRecorder> recorders;  // By lane, then by queue. None for pairs that never occurred.
+  UniqueTimestamps timestamps;
   uint32_t timestampSteps = 0;  // Steps that have room in it.
   std::vector<uint32_t> stamped;
   ViewCache importedViews;  // A host may destroy an imported image after any frame, so these live for one.

@@ -100,7 +100,7 @@ void Frame::cutChunks(uint32_t first, uint32_t last) {
 
 // ---- Recording
 
-OwnedRecorder& Frame::recorder(uint32_t lane, uint32_t queue) {
+UniqueRecorder& Frame::recorder(uint32_t lane, uint32_t queue) {
   return slot_.recorders[lane * state_.backend.queues().size() + queue];
 }
 
@@ -112,11 +112,11 @@ void Frame::openLanes() {
   if (slot_.recorders.size() < lanes * queues) slot_.recorders.resize(lanes * queues);
   for (const Chunk& chunk : state_.chunks) {
     const uint32_t queue = state_.current->plan.submissions[chunk.submission].queue;
-    OwnedRecorder& owned = recorder(chunk.lane, queue);
+    UniqueRecorder& owned = recorder(chunk.lane, queue);
     if (owned) continue;
     const std::string name = "graph frame " + std::to_string(slot_.index) + ", recording " +
                              std::to_string(chunk.lane) + ", queue " + std::to_string(queue);
-    owned = OwnedRecorder(state_.backend, state_.backend.createRecorder(queue, name));
+    owned = UniqueRecorder(state_.backend, state_.backend.createRecorder(queue, name));
   }
 }
 

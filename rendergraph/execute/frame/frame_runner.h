@@ -34,7 +34,7 @@ class Frame {
   void submitMeasured(uint32_t submission, std::span<const Chunk> chunks);
   void submitSegment(uint32_t first, uint32_t last);
   void waitForSubmission(uint32_t submission);
-  OwnedRecorder& recorder(uint32_t lane, uint32_t queue);
+  UniqueRecorder& recorder(uint32_t lane, uint32_t queue);
   void refuseHostPasses() const;
 
   ExecutorState& state_;

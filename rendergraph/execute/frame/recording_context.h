@@ -28,7 +28,7 @@ struct FrameContext {
   const Declaration* declaration = nullptr;
   const Plan* plan = nullptr;
   BindingTable bound;
-  std::span<const OwnedEvent> events;  ///< Of Plan::events.
+  std::span<const UniqueEvent> events;  ///< Of Plan::events.
   Capture* capture = nullptr;          ///< Each step writes its own times.
   Clock::time_point start;
   VkQueryPool timestamps = VK_NULL_HANDLE;  ///< Null: no times are taken inside submissions.

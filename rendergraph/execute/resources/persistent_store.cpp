@@ -59,12 +59,12 @@ void RetainedStore::make(const DeclaredResource& resource, const Entry& entry, S
     const MemoryRequirements needs = backend_.requirements(entry.imageDesc, entry.imageUsage);
     if (needs.dedicated) {
       const DedicatedImage both = backend_.createDedicatedImage(request);
-      made.heap = OwnedHeap(backend_, both.heap);
-      made.image = OwnedImage(backend_, both.image);
+      made.heap = UniqueHeap(backend_, both.heap);
+      made.image = UniqueImage(backend_, both.image);
     } else {
       made.heap =
-          OwnedHeap(backend_, backend_.createHeap(needs.size, needs.memoryTypeBits, MemoryKind::device, resource.name));
-      made.image = OwnedImage(backend_, backend_.createImage(request, made.heap.get(), 0));
+          UniqueHeap(backend_, backend_.createHeap(needs.size, needs.memoryTypeBits, MemoryKind::device, resource.name));
+      made.image = UniqueImage(backend_, backend_.createImage(request, made.heap.get(), 0));
     }
   } else {
     const BufferRequest request{entry.bufferDesc, entry.bufferUsage, entry.concurrent, resource.key};
@@ -72,11 +72,11 @@ void RetainedStore::make(const DeclaredResource& resource, const Entry& entry, S
     const MemoryKind memory = entry.bufferDesc.memory;
     if (needs.dedicated) {
       const DedicatedBuffer both = backend_.createDedicatedBuffer(request);
-      made.heap = OwnedHeap(backend_, both.heap);
-      made.buffer = OwnedBuffer(backend_, both.buffer);
+      made.heap = UniqueHeap(backend_, both.heap);
+      made.buffer = UniqueBuffer(backend_, both.buffer);
     } else {
-      made.heap = OwnedHeap(backend_, backend_.createHeap(needs.size, needs.memoryTypeBits, memory, resource.name));
-      made.buffer = OwnedBuffer(backend_, backend_.createBuffer(request, made.heap.get(), 0));
+      made.heap = UniqueHeap(backend_, backend_.createHeap(needs.size, needs.memoryTypeBits, memory, resource.name));
+      made.buffer = UniqueBuffer(backend_, backend_.createBuffer(request, made.heap.get(), 0));
     }
     if (memory != MemoryKind::device) made.address = static_cast<std::byte*>(backend_.hostAddress(made.heap.get()));
   }

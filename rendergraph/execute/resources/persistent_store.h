@@ -45,9 +45,9 @@ class RetainedStore {
 
  private:
   struct Side {
-    OwnedHeap heap;
-    OwnedImage image;
-    OwnedBuffer buffer;
+    UniqueHeap heap;
+    UniqueImage image;
+    UniqueBuffer buffer;
     ViewCache views;
     std::byte* address = nullptr;
     bool valid = false;  // Zeroed or written, and in `layout`.

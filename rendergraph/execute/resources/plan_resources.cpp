@@ -18,20 +18,20 @@ void makeObject(Backend& backend, const DeclaredResource& resource, const Placem
     const ImageRequest request{resource.image, placement.imageUsage, placement.concurrent, resource.name};
     if (dedicated) {
       const DedicatedImage made = backend.createDedicatedImage(request);
-      object.dedicated = OwnedHeap(backend, made.heap);
-      object.image = OwnedImage(backend, made.image);
+      object.dedicated = UniqueHeap(backend, made.heap);
+      object.image = UniqueImage(backend, made.image);
     } else {
-      object.image = OwnedImage(backend, backend.createImage(request, heap, placement.offset));
+      object.image = UniqueImage(backend, backend.createImage(request, heap, placement.offset));
     }
     return;
   }
   const BufferRequest request{resource.buffer, placement.bufferUsage, placement.concurrent, resource.name};
   if (dedicated) {
     const DedicatedBuffer made = backend.createDedicatedBuffer(request);
-    object.dedicated = OwnedHeap(backend, made.heap);
-    object.buffer = OwnedBuffer(backend, made.buffer);
+    object.dedicated = UniqueHeap(backend, made.heap);
+    object.buffer = UniqueBuffer(backend, made.buffer);
   } else {
-    object.buffer = OwnedBuffer(backend, backend.createBuffer(request, heap, placement.offset));
+    object.buffer = UniqueBuffer(backend, backend.createBuffer(request, heap, placement.offset));
   }
   if (resource.buffer.memory == MemoryKind::device) return;
   auto* address = static_cast<std::byte*>(backend.hostAddress(dedicated ? object.dedicated.get() : heap));
@@ -65,7 +65,7 @@ HeapId HeapPool::acquire(Backend& backend, const PlannedHeap& planned, uint32_t 
     best->planned = planned;
     best->slot = slot;
     best->heap =
-        OwnedHeap(backend, backend.createHeap(planned.size, planned.memoryTypeBits, planned.memory, "graph heap"));
+        UniqueHeap(backend, backend.createHeap(planned.size, planned.memoryTypeBits, planned.memory, "graph heap"));
     heaps_.push_back(best);
   }
   const HeapId id = best->heap.get();
@@ -103,7 +103,7 @@ void PlanResources::prepare(Backend& backend, HeapPool& pool, const Declaration&
   make(backend, pool, declaration, plan, slot, false, device_);
   Objects& own = slots_[slot];
   make(backend, pool, declaration, plan, slot, true, own);
-  for (const OwnedEvent& event : own.events) backend.resetEvent(event.get());
+  for (const UniqueEvent& event : own.events) backend.resetEvent(event.get());
   own.events.reserve(plan.events.size());
   while (own.events.size() < plan.events.size()) {
     const PlannedPass& setter = plan.passes[plan.events[own.events.size()].setAfter];

@@ -21,7 +21,7 @@ struct Declaration;
 struct PooledHeap {
   PlannedHeap planned;  ///< With its real size.
   uint32_t slot = 0;    ///< Of host-visible memory.
-  OwnedHeap heap;
+  UniqueHeap heap;
 };
 
 class HeapPool {
@@ -44,13 +44,13 @@ class PlanResources {
   void prepare(Backend& backend, HeapPool& pool, const Declaration& declaration, const Plan& plan, uint32_t slot);
   /// Enters the plan's own resources. Precondition: prepare() for this slot.
   void bind(const Plan& plan, uint32_t slot, BindingTable& table);
-  std::span<const OwnedEvent> events(uint32_t slot) const { return slots_[slot].events; }
+  std::span<const UniqueEvent> events(uint32_t slot) const { return slots_[slot].events; }
 
  private:
   struct Object {
-    OwnedHeap dedicated;  // Instead of a pooled heap.
-    OwnedImage image;
-    OwnedBuffer buffer;
+    UniqueHeap dedicated;  // Instead of a pooled heap.
+    UniqueImage image;
+    UniqueBuffer buffer;
     ViewCache views;
     std::byte* address = nullptr;
   };
@@ -59,7 +59,7 @@ class PlanResources {
     HeapPool::Heaps taken;
     std::vector<HeapId> heaps;  // By planned heap; 0: of the other kind, or dedicated.
     std::vector<Object> objects;
-    std::vector<OwnedEvent> events;
+    std::vector<UniqueEvent> events;
     bool complete = false;
   };
   void make(Backend& backend, HeapPool& pool, const Declaration& declaration, const Plan& plan, uint32_t slot,

@@ -8,17 +8,17 @@
 namespace lensgraph::rendergraph {
 
 template <class T, void (Backend::*Destroy)(T)>
-class Owned {
+class UniqueHandle {
  public:
-  Owned() = default;
-  Owned(Backend& backend, T object) : backend_(&backend), object_(object) {}
-  Owned(Owned&& other) noexcept : backend_(other.backend_), object_(std::exchange(other.object_, T{})) {}
-  Owned& operator=(Owned&& other) noexcept {
+  UniqueHandle() = default;
+  UniqueHandle(Backend& backend, T object) : backend_(&backend), object_(object) {}
+  UniqueHandle(UniqueHandle&& other) noexcept : backend_(other.backend_), object_(std::exchange(other.object_, T{})) {}
+  UniqueHandle& operator=(UniqueHandle&& other) noexcept {
     std::swap(backend_, other.backend_);
     std::swap(object_, other.object_);
     return *this;
   }
-  ~Owned() {
+  ~UniqueHandle() {
     if (object_ != T{}) (backend_->*Destroy)(object_);
   }
   T get() const { return object_; }
@@ -29,13 +29,13 @@ class Owned {
   T object_{};
 };
 
-using OwnedHeap = Owned<HeapId, &Backend::destroyHeap>;
-using OwnedImage = Owned<VkImage, &Backend::destroyImage>;
-using OwnedBuffer = Owned<VkBuffer, &Backend::destroyBuffer>;
-using OwnedView = Owned<VkImageView, &Backend::destroyView>;
-using OwnedEvent = Owned<VkEvent, &Backend::destroyEvent>;
-using OwnedRecorder = Owned<RecorderId, &Backend::destroyRecorder>;
-using OwnedTimeline = Owned<VkSemaphore, &Backend::destroyTimeline>;
-using OwnedTimestamps = Owned<VkQueryPool, &Backend::destroyTimestamps>;
+using UniqueHeap = UniqueHandle<HeapId, &Backend::destroyHeap>;
+using UniqueImage = UniqueHandle<VkImage, &Backend::destroyImage>;
+using UniqueBuffer = UniqueHandle<VkBuffer, &Backend::destroyBuffer>;
+using UniqueView = UniqueHandle<VkImageView, &Backend::destroyView>;
+using UniqueEvent = UniqueHandle<VkEvent, &Backend::destroyEvent>;
+using UniqueRecorder = UniqueHandle<RecorderId, &Backend::destroyRecorder>;
+using UniqueTimeline = UniqueHandle<VkSemaphore, &Backend::destroyTimeline>;
+using UniqueTimestamps = UniqueHandle<VkQueryPool, &Backend::destroyTimestamps>;
 
 }  // namespace lensgraph::rendergraph

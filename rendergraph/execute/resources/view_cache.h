@@ -18,13 +18,13 @@ class ViewCache {
     const auto found = std::find_if(views_.begin(), views_.end(), [&](const auto& v) { return v.first == desc; });
     if (found != views_.end()) return found->second.get();
     views_.reserve(views_.size() + 1);  // So that nothing throws once the view exists.
-    views_.emplace_back(desc, OwnedView(backend, backend.createView(desc, name)));
+    views_.emplace_back(desc, UniqueView(backend, backend.createView(desc, name)));
     return views_.back().second.get();
   }
   void clear() { views_.clear(); }
 
  private:
-  std::vector<std::pair<ViewDesc, OwnedView>> views_;
+  std::vector<std::pair<ViewDesc, UniqueView>> views_;
 };
 
 }  // namespace lensgraph::rendergraph
