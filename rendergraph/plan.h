@@ -165,13 +165,13 @@ struct Placement {
 };
 
 /// A resource that the executor keeps across frames, and what this plan does with it.
-struct RetainedResource {
+struct PersistentResource {
   uint32_t resource = 0;
   VkImageUsageFlags imageUsage = 0;
   VkBufferUsageFlags bufferUsage = 0;
   VkImageLayout restLayout = VK_IMAGE_LAYOUT_GENERAL;  ///< Between frames; the plan starts and ends with it.
   bool concurrent = false;                             ///< As in Placement.
-  bool operator==(const RetainedResource&) const = default;
+  bool operator==(const PersistentResource&) const = default;
 };
 
 struct CulledPass {
@@ -193,7 +193,7 @@ struct Plan {
   std::vector<PlannedSubmission> submissions;
   std::vector<PlannedHeap> heaps;
   std::vector<Placement> placements;
-  std::vector<RetainedResource> retained;
+  std::vector<PersistentResource> persistent;
   std::vector<CulledPass> culled;
   MemoryReport memory;
   uint32_t barrierBatches = 0;  ///< Commands: batches before passes, at ends of submissions, and events.

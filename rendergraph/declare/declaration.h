@@ -67,7 +67,7 @@ struct DeclaredResource : ResourceStructure {
   bool created() const { return origin == Origin::created; }
   bool imported() const { return origin == Origin::imported; }
   /// Kept by the executor.
-  bool retained() const { return !created() && !imported(); }
+  bool persistent() const { return !created() && !imported(); }
   /// Whether its final content is seen by somebody outside the graph.
   bool observable() const { return exported || !created(); }
 };

@@ -99,7 +99,7 @@ void checkKeyIsUnique(Declaration& declaration, uint32_t index) {
     const DeclaredResource& other = declaration.resources[i];
     const bool halvesOfOneHistory =
         other.origin == Origin::historyPrevious && added.origin == Origin::historyNext && i + 1 == index;
-    if (other.retained() && other.key == added.key && !halvesOfOneHistory) {
+    if (other.persistent() && other.key == added.key && !halvesOfOneHistory) {
       declaration.report(Misuse::doubleWrite, kNone, index, "two persistent resources of the graph have this name",
                          "declare it once and pass the handle on, or give them different names", added.where);
       return;
@@ -107,7 +107,7 @@ void checkKeyIsUnique(Declaration& declaration, uint32_t index) {
   }
 }
 
-/// Gives a retained resource the key under which the executor keeps it: its name without a suffix.
+/// Gives a persistent resource the key under which the executor keeps it: its name without a suffix.
 uint32_t withKey(Declaration& declaration, uint32_t index, std::size_t keyLength) {
   declaration.resources[index].key = declaration.resources[index].name.substr(0, keyLength);
   checkKeyIsUnique(declaration, index);

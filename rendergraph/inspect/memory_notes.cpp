@@ -55,7 +55,7 @@ std::vector<std::string> memoryNotes(const Declaration& declaration, const Plan&
   std::vector<std::string> notes;
   for (const DeclaredResource& resource : declaration.resources) {
     notes.emplace_back(resource.imported()   ? "the host's own memory"
-                       : resource.retained() ? "kept across frames, so its memory is its own"
+                       : resource.persistent() ? "kept across frames, so its memory is its own"
                                              : "no living pass uses it");
   }
   for (const Placement& placement : plan.placements) {

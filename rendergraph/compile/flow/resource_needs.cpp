@@ -21,10 +21,10 @@ std::vector<ResourceNeed> findResourceNeeds(const Declaration& declaration, std:
     if (!need.used) continue;
     // The executor zeroes what it keeps.
     if (resource.isImage) {
-      need.image |= resource.image.extraUsage | (resource.retained() ? VK_IMAGE_USAGE_TRANSFER_DST_BIT : 0);
+      need.image |= resource.image.extraUsage | (resource.persistent() ? VK_IMAGE_USAGE_TRANSFER_DST_BIT : 0);
       need.buffer = 0;
     } else {
-      need.buffer |= resource.buffer.extraUsage | (resource.retained() ? VK_BUFFER_USAGE_TRANSFER_DST_BIT : 0);
+      need.buffer |= resource.buffer.extraUsage | (resource.persistent() ? VK_BUFFER_USAGE_TRANSFER_DST_BIT : 0);
       need.image = 0;
     }
     if (!resource.created()) continue;

@@ -35,7 +35,7 @@ void checkLimits(const Declaration& declaration, const DeviceFacts& device, Prob
 
 bool hasContent(const DeclaredResource& resource) {
   if (resource.imported()) return !resource.isImage || resource.before.layout != VK_IMAGE_LAYOUT_UNDEFINED;
-  return resource.retained();
+  return resource.persistent();
 }
 
 void checkContent(const Declaration& declaration, const Cells& cells, Problems& problems) {

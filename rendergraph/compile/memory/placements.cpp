@@ -61,8 +61,8 @@ class Placer {
     const ResourceNeed& use = uses_[index];
     if (!use.used || resource.imported()) return;
     const bool concurrent = !sharing_.empty() && sharing_[index] == Sharing::concurrent;
-    if (resource.retained()) {
-      plan_.retained.push_back({.resource = index,
+    if (resource.persistent()) {
+      plan_.persistent.push_back({.resource = index,
                                 .imageUsage = use.image,
                                 .bufferUsage = use.buffer,
                                 .restLayout = restStateOf(resource).layout,

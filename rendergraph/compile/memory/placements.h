@@ -13,7 +13,7 @@ namespace lensgraph::rendergraph {
 struct Schedule;
 struct Submissions;
 
-/// Fills Plan::placements, heaps, retained and memory. `sharing` is empty on one queue.
+/// Fills Plan::placements, heaps, persistent and memory. `sharing` is empty on one queue.
 void placeResources(const Declaration& declaration, std::span<const ResourceNeed> uses, std::span<const Sharing> sharing,
                     const Schedule& schedule, const Submissions& submissions, Aliasing aliasing, Plan& plan);
 

@@ -48,7 +48,7 @@ CellUses::CellUses(const Declaration& declaration, const Cells& cells, const Sch
 std::optional<CellUse> useAfterGraph(const DeclaredResource& resource, std::span<const CellUse> uses,
                                      VkImageLayout layoutBefore, uint32_t steps, bool overlappingFrames) {
   if (!resource.observable()) return std::nullopt;
-  AccessState after = resource.retained() ? restStateOf(resource) : resource.after;
+  AccessState after = resource.persistent() ? restStateOf(resource) : resource.after;
   const VkImageLayout current = uses.empty() ? layoutBefore : uses.back().layout;
   if (!resource.isImage || after.layout == VK_IMAGE_LAYOUT_UNDEFINED) after.layout = current;
   const bool elsewhere = !uses.empty() && uses.back().queue != 0;  // Queue 0 owns it in the end.

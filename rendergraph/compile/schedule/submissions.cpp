@@ -39,7 +39,7 @@ class Dependencies {
   void addCell(const DeclaredResource& resource, std::span<const CellUse> inGraph, bool oneOwner) {
     if (inGraph.empty()) return;
     uses_.assign(inGraph.begin(), inGraph.end());
-    const VkImageLayout before = resource.retained() ? restStateOf(resource).layout : resource.before.layout;
+    const VkImageLayout before = resource.persistent() ? restStateOf(resource).layout : resource.before.layout;
     if (const auto after = useAfterGraph(resource, inGraph, before, schedule_.steps(), overlappingFrames_))
       uses_.push_back(*after);
     const std::span<const CellUse> uses = uses_;

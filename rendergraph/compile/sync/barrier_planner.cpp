@@ -176,7 +176,7 @@ CellState BarrierPlanner::stateBefore(uint32_t resource, uint32_t queue) const {
   const DeclaredResource& declared = in_.declaration.resources[resource];
   if (declared.created()) return stateAfterPredecessors(resource, queue);
   CellState state;
-  if (declared.retained()) {
+  if (declared.persistent()) {
     // The barrier at the end of the frame before made it visible to everything.
     if (declared.isImage) state.layout = restStateOf(declared).layout;
     return state;
@@ -196,7 +196,7 @@ void BarrierPlanner::planResource(uint32_t resource) {
   found_.clear();
   for (uint32_t cell = first; cell < first + count; ++cell) {
     const std::span<const CellUse> uses = in_.cellUses.of(cell);
-    if (uses.empty() && (!declared.observable() || declared.retained())) continue;
+    if (uses.empty() && (!declared.observable() || declared.persistent())) continue;
     const CellState start = stateBefore(resource, uses.empty() ? 0 : uses.front().queue);
     uses_.assign(uses.begin(), uses.end());
     if (const auto after =
@@ -292,7 +292,7 @@ void BarrierPlanner::separate(uint32_t resource, uint32_t cell, const CellState&
   if (!transition && access == 0 && epoch.stages == VK_PIPELINE_STAGE_2_HOST_BIT) return;
   const bool dropped = transition && replaces;
   AccessPoint from = state.last;
-  const bool keptFromBefore = from.stages == 0 && in_.declaration.resources[resource].retained();
+  const bool keptFromBefore = from.stages == 0 && in_.declaration.resources[resource].persistent();
   if (keptFromBefore && in_.options.overlappingFrames) from.stages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
   add(resource, cell, epoch, state,
       {.from = from,

@@ -182,7 +182,7 @@ void BarrierPlanner::changeLayoutBefore(Crossing& crossing, const Epoch& epoch) 
   }
   if (own.used) from = own.last;
   if (elsewhere && (from.stages & partOf(epoch, queue).stages) == 0) from.stages |= waitingStage(epoch, queue);
-  const bool kept = in_.declaration.resources[crossing.resource].retained() && crossing.lastStep == kNone;
+  const bool kept = in_.declaration.resources[crossing.resource].persistent() && crossing.lastStep == kNone;
   if (from.stages == 0 && kept && in_.options.overlappingFrames) from.stages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
   const Epoch part = partOf(epoch, queue);
   const bool dropped = epoch.writes() && !epoch.needsContent();

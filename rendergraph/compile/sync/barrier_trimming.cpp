@@ -88,7 +88,7 @@ bool BarrierTrimming::isEnd(const PendingBarrier& found) const {
 /// At which the graph's last barrier of the resource may end for the sake of the next frame only.
 VkPipelineStageFlags2 BarrierTrimming::endStages(uint32_t resource) const {
   const DeclaredResource& declared = in_.declaration.resources[resource];
-  return declared.retained() ? 0 : ~declared.after.stages;
+  return declared.persistent() ? 0 : ~declared.after.stages;
 }
 
 template <class Member>

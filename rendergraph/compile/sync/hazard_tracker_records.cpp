@@ -38,7 +38,7 @@ void HazardTracker::startCell(uint32_t resource, uint32_t cell, std::span<const 
 }
 
 void HazardTracker::addOutside(const DeclaredResource& resource) {
-  if (resource.retained()) {  // At rest on queue 0, where everything comes after it and sees it.
+  if (resource.persistent()) {  // At rest on queue 0, where everything comes after it and sees it.
     Record rest{.moment = order_.beforeGraph(),
                 .write = true,
                 .seen = true,
@@ -141,7 +141,7 @@ void HazardTracker::addUse(const CellUse& use) {
   const auto first = touches_.size();
   const bool after = use.step >= steps;
   if (after) {
-    const VkPipelineStageFlags2 asked = declared.retained() ? use.stages : declared.after.stages;
+    const VkPipelineStageFlags2 asked = declared.persistent() ? use.stages : declared.after.stages;
     addTouch(first, use.stages & asked, use.access);
   } else {
     for (uint32_t step = use.step; step <= in_.schedule.unitLast[use.step]; ++step) {

@@ -12,7 +12,7 @@
 namespace lensgraph::rendergraph {
 
 ExecutorState::ExecutorState(Backend& device, const ExecutorOptions& chosen)
-    : backend(device), options(chosen), retained(device, deletionQueue), slots(chosen.framesInFlight), frame(device) {
+    : backend(device), options(chosen), persistent(device, deletionQueue), slots(chosen.framesInFlight), frame(device) {
   for (uint32_t i = 0; i < slots.size(); ++i) slots[i].index = i;
 }
 
@@ -118,7 +118,7 @@ void ExecutorState::prepare(const Declaration& declared, const CompileOptions& c
   makeResources(declared, slot.index);
   current->resources->bind(current->plan, slot.index, frame.bound);
   frame.events = current->resources->events(slot.index);
-  retained.prepare(declared, current->plan, frame.bound);
+  persistent.prepare(declared, current->plan, frame.bound);
   frame.timestamps = VK_NULL_HANDLE;
   if (timing == Timing::inlineTimestamps) openTimestamps(slot);
 }
@@ -142,7 +142,7 @@ void ExecutorState::openTimestamps(FrameSlot& slot) {
 // ---- After it
 
 void ExecutorState::closeSlot(FrameSlot& slot, FrameSlot::State state) {
-  retained.commit();
+  persistent.commit();
   slot.frame = ++lastFrame;
   slot.state = state;
   lastHash = current->hash;
@@ -156,7 +156,7 @@ void ExecutorState::abandon(FrameSlot& slot) noexcept {
   slot.importedViews.clear();
   if (slot.sent.empty()) return;
   lastHash = 0;
-  retained.invalidate();
+  persistent.invalidate();
   try {
     waitForDevice(slot, slot.sent);
     slot.sent.clear();
@@ -245,7 +245,7 @@ void ExecutorState::waitForDevice(const FrameSlot& slot, std::span<const SentSub
   } catch (const GraphError& error) {
     // Nobody knows what of the frames was carried out.
     lastHash = 0;
-    retained.invalidateAll();
+    persistent.invalidateAll();
     const SentSubmission* stopped = unfinished(slot);
     if (stopped == nullptr && !slot.sent.empty()) stopped = &slot.sent.back();
     std::vector<GraphError::Problem> problems = error.problems();
@@ -268,7 +268,7 @@ void ExecutorState::forget() {
     slot.exports = {};
     slot.importedViews.clear();
   }
-  retained.clear();
+  persistent.clear();
   plans.clear();
   deletionQueue.release(std::numeric_limits<uint64_t>::max());
 }

@@ -43,7 +43,7 @@ struct ExecutorState {
   DeletionQueue deletionQueue;
   HeapPool pool;
   PlanCache plans{deletionQueue};
-  RetainedStore retained;
+  PersistentStore persistent;
   std::vector<FrameSlot> slots;
 
   uint64_t lastFrame = 0;  // Number of the latest frame that was submitted or recorded.

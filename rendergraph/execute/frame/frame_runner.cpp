@@ -23,7 +23,7 @@ constexpr uint32_t kMaxThreads = 64;  // More lanes than that only cost command 
 
 bool Frame::needsStart() const {
   const bool others = state_.slots.size() > 1 && state_.lastFrame > 0 && state_.lastHash != state_.current->hash;
-  return others || state_.retained.needsStart();
+  return others || state_.persistent.needsStart();
 }
 
 void Frame::recordStart(const CommandStream& commands) {
@@ -43,7 +43,7 @@ void Frame::recordStart(const CommandStream& commands) {
     dependency.pMemoryBarriers = &everything;
     state_.backend.barrier(commands, dependency);
   }
-  state_.retained.recordStart(commands);
+  state_.persistent.recordStart(commands);
   state_.backend.endLabel(commands);
 }
 

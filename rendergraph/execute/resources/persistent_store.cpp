@@ -22,37 +22,37 @@ bool written(const Declaration& declaration, const Plan& plan, uint32_t resource
 
 }  // namespace
 
-RetainedStore::Entry& RetainedStore::entryFor(const DeclaredResource& resource, const RetainedResource& retained) {
+PersistentStore::Entry& PersistentStore::entryFor(const DeclaredResource& resource, const PersistentResource& persistent) {
   auto found = entries_.find(resource.key);
   if (found == entries_.end()) found = entries_.emplace(std::string(resource.key), Entry{}).first;
   Entry& entry = found->second;
   const bool sameShape =
       entry.isImage == resource.isImage && entry.imageDesc == resource.image && entry.bufferDesc == resource.buffer;
-  const bool same = sameShape && (retained.imageUsage & ~entry.imageUsage) == 0 &&
-                    (retained.bufferUsage & ~entry.bufferUsage) == 0 && (entry.concurrent || !retained.concurrent);
+  const bool same = sameShape && (persistent.imageUsage & ~entry.imageUsage) == 0 &&
+                    (persistent.bufferUsage & ~entry.bufferUsage) == 0 && (entry.concurrent || !persistent.concurrent);
   if (!same) {
     retire(entry);
     // Flags are kept, so that two graphs that use it differently settle on one object.
     entry = Entry{.isImage = resource.isImage,
                   .imageDesc = resource.image,
                   .bufferDesc = resource.buffer,
-                  .imageUsage = (sameShape ? entry.imageUsage : 0) | retained.imageUsage,
-                  .bufferUsage = (sameShape ? entry.bufferUsage : 0) | retained.bufferUsage,
-                  .concurrent = (sameShape && entry.concurrent) || retained.concurrent,
+                  .imageUsage = (sameShape ? entry.imageUsage : 0) | persistent.imageUsage,
+                  .bufferUsage = (sameShape ? entry.bufferUsage : 0) | persistent.bufferUsage,
+                  .concurrent = (sameShape && entry.concurrent) || persistent.concurrent,
                   .previous = 0,
                   .sides = {}};
   }
   return entry;
 }
 
-void RetainedStore::retire(Entry& entry) {
+void PersistentStore::retire(Entry& entry) {
   for (Side& side : entry.sides) {
     if (side.heap) deletionQueue_.add(std::move(side));
     side = Side{};
   }
 }
 
-void RetainedStore::make(const DeclaredResource& resource, const Entry& entry, Side& side) {
+void PersistentStore::make(const DeclaredResource& resource, const Entry& entry, Side& side) {
   Side made;
   if (entry.isImage) {
     const ImageRequest request{entry.imageDesc, entry.imageUsage, entry.concurrent, resource.key};
@@ -83,15 +83,15 @@ void RetainedStore::make(const DeclaredResource& resource, const Entry& entry, S
   side = std::move(made);
 }
 
-void RetainedStore::prepare(const Declaration& declaration, const Plan& plan, BindingTable& table) {
+void PersistentStore::prepare(const Declaration& declaration, const Plan& plan, BindingTable& table) {
   current_.clear();
   // Both sides of a history share the flags, so all entries are settled before anything is made.
-  for (const RetainedResource& retained : plan.retained) {
-    entryFor(declaration.resources[retained.resource], retained);
+  for (const PersistentResource& persistent : plan.persistent) {
+    entryFor(declaration.resources[persistent.resource], persistent);
   }
-  for (const RetainedResource& retained : plan.retained) {
-    const DeclaredResource& resource = declaration.resources[retained.resource];
-    Entry& entry = entryFor(resource, retained);
+  for (const PersistentResource& persistent : plan.persistent) {
+    const DeclaredResource& resource = declaration.resources[persistent.resource];
+    Entry& entry = entryFor(resource, persistent);
     const uint32_t index = resource.origin == Origin::persistent        ? 0
                            : resource.origin == Origin::historyPrevious ? entry.previous
                                                                         : 1 - entry.previous;
@@ -100,14 +100,14 @@ void RetainedStore::prepare(const Declaration& declaration, const Plan& plan, Bi
     current_.push_back(
         {.entry = &entry,
          .side = &side,
-         .restLayout = retained.restLayout,
-         .swaps = resource.origin == Origin::historyNext && written(declaration, plan, retained.resource)});
-    table[retained.resource] = {
+         .restLayout = persistent.restLayout,
+         .swaps = resource.origin == Origin::historyNext && written(declaration, plan, persistent.resource)});
+    table[persistent.resource] = {
         .image = side.image.get(), .buffer = side.buffer.get(), .views = &side.views, .address = side.address};
   }
 }
 
-void RetainedStore::barrier(const CommandStream& commands, const Current& current, VkImageLayout from,
+void PersistentStore::barrier(const CommandStream& commands, const Current& current, VkImageLayout from,
                             VkImageLayout to) {
   // Rare (first frame, change of plan), so the widest scopes are good enough.
   VkMemoryBarrier2 memory{};
@@ -148,7 +148,7 @@ void RetainedStore::barrier(const CommandStream& commands, const Current& curren
   backend_.barrier(commands, dependency);
 }
 
-void RetainedStore::recordZero(const CommandStream& commands, const Current& current) {
+void PersistentStore::recordZero(const CommandStream& commands, const Current& current) {
   const VkImage image = current.side->image.get();
   if (!current.entry->isImage) {
     backend_.fillBuffer(commands, current.side->buffer.get(), 0, VK_WHOLE_SIZE);
@@ -166,13 +166,13 @@ void RetainedStore::recordZero(const CommandStream& commands, const Current& cur
   barrier(commands, current, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, current.restLayout);
 }
 
-bool RetainedStore::needsStart() const {
+bool PersistentStore::needsStart() const {
   return std::ranges::any_of(current_, [](const Current& current) {
     return !current.side->valid || (current.entry->isImage && current.side->layout != current.restLayout);
   });
 }
 
-void RetainedStore::recordStart(const CommandStream& commands) {
+void PersistentStore::recordStart(const CommandStream& commands) {
   for (const Current& current : current_) {
     if (!current.side->valid) {
       recordZero(commands, current);
@@ -182,7 +182,7 @@ void RetainedStore::recordStart(const CommandStream& commands) {
   }
 }
 
-void RetainedStore::commit() {
+void PersistentStore::commit() {
   for (const Current& current : current_) {
     current.side->valid = true;
     current.side->layout = current.restLayout;
@@ -191,18 +191,18 @@ void RetainedStore::commit() {
   current_.clear();
 }
 
-void RetainedStore::invalidate() {
+void PersistentStore::invalidate() {
   for (const Current& current : current_) current.side->valid = false;
   current_.clear();
 }
 
-void RetainedStore::invalidateAll() {
+void PersistentStore::invalidateAll() {
   for (auto& [key, entry] : entries_) {
     for (Side& side : entry.sides) side.valid = false;
   }
 }
 
-void RetainedStore::clear() {
+void PersistentStore::clear() {
   current_.clear();
   for (auto& [key, entry] : entries_) retire(entry);
   entries_.clear();

@@ -19,10 +19,10 @@ namespace lensgraph::rendergraph {
 struct Declaration;
 struct DeclaredResource;
 
-class RetainedStore {
+class PersistentStore {
  public:
   /// Frames in flight may use what is replaced.
-  RetainedStore(Backend& backend, DeletionQueue& deletionQueue) : backend_(backend), deletionQueue_(deletionQueue) {}
+  PersistentStore(Backend& backend, DeletionQueue& deletionQueue) : backend_(backend), deletionQueue_(deletionQueue) {}
 
   /// Makes what the plan needs and does not exist, or has another description or too few usage flags; enters all of it
   /// into the table. Throws GraphError (outOfMemory, device) that names the resource.
@@ -71,7 +71,7 @@ class RetainedStore {
     bool swaps;  // The written next side of a history.
   };
 
-  Entry& entryFor(const DeclaredResource& resource, const RetainedResource& retained);
+  Entry& entryFor(const DeclaredResource& resource, const PersistentResource& persistent);
   void make(const DeclaredResource& resource, const Entry& entry, Side& side);
   void retire(Entry& entry);
   void recordZero(const CommandStream& commands, const Current& current);

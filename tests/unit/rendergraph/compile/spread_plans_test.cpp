@@ -71,7 +71,7 @@ void spread(const Declaration& declaration, Plan& plan) {
   addSubmission(plan, 0, {});
   plan.submissions.back().atEnd = atEnd;
   for (Placement& placement : plan.placements) placement.concurrent = true;
-  for (RetainedResource& retained : plan.retained) retained.concurrent = true;
+  for (PersistentResource& persistent : plan.persistent) persistent.concurrent = true;
 }
 
 }  // namespace

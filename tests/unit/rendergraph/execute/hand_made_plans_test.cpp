@@ -230,7 +230,7 @@ TEST(CarriedOut, ResourcesSharedByFamiliesAreMadeConcurrent) {
   kept = pass.modify(kept, Usage::storage);
   executor.run(graph, [](Plan& plan) {
     plan.placements.at(0).concurrent = true;
-    plan.retained.at(0).concurrent = true;
+    plan.persistent.at(0).concurrent = true;
   });
   std::vector<std::string> names;
   for (const uint64_t id : backend.concurrent) names.push_back(backend.living[id]);
@@ -239,7 +239,7 @@ TEST(CarriedOut, ResourcesSharedByFamiliesAreMadeConcurrent) {
 
 TEST(CarriedOut, DedicatedMemoryHoldsOneResourceAndIsNeverPooled) {
   FakeBackend backend;
-  backend.dedicatedImages = true;  // Of retained ones; the plan says it for its own.
+  backend.dedicatedImages = true;  // Of persistent ones; the plan says it for its own.
   {
     HandMade executor(backend);
     Graph graph, other;

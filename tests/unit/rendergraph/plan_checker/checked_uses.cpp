@@ -42,8 +42,8 @@ ResourceReplay::ResourceReplay(const Setting& setting, const PlanOrder& order, u
   for (const Placement& placement : setting.plan.placements) {
     if (placement.resource == resource) concurrent_ = placement.concurrent;
   }
-  for (const RetainedResource& retained : setting.plan.retained) {
-    if (retained.resource == resource) concurrent_ = retained.concurrent;
+  for (const PersistentResource& persistent : setting.plan.persistent) {
+    if (persistent.resource == resource) concurrent_ = persistent.concurrent;
   }
   collectUses(accesses, stepOfPass);
   collectOps();

@@ -30,7 +30,7 @@
 // Queue families. An exclusive resource belongs to one family. Another one may use it after a release, in a barrier
 // of the owner's queue, and a matching acquire (same layouts and range) that is ordered after it; or by dropping the
 // content: with a transition from UNDEFINED, or, of a buffer, by replacing all of it. A transition needs ownership,
-// and so does a use, save by the host. Imported and retained resources belong to the family of queue 0 before and
+// and so does a use, save by the host. Imported and persistent resources belong to the family of queue 0 before and
 // after the graph.
 //
 // Attachments. Steps that share a rendering access its attachments in rasterization order; all else in there needs a

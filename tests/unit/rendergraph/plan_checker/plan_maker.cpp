@@ -101,9 +101,9 @@ void PlanMaker::place() {
       }
     }
     if (placement.firstStep == steps || resource.imported()) continue;
-    if (resource.retained()) {
+    if (resource.persistent()) {
       const VkImageLayout rest = resource.isImage ? restStateOf(resource).layout : VK_IMAGE_LAYOUT_GENERAL;
-      plan_.retained.push_back({.resource = i, .restLayout = rest, .concurrent = placement.concurrent});
+      plan_.persistent.push_back({.resource = i, .restLayout = rest, .concurrent = placement.concurrent});
       continue;
     }
     const MemoryRequirements needed =

@@ -35,7 +35,7 @@ class PlanMaker {
   PlanMaker& atEnd(const Images& images, const Buffers& buffers = {});
   /// The resource is created for several queue families.
   PlanMaker& concurrent(uint32_t resource);
-  /// The plan, with placements, retained resources and counts.
+  /// The plan, with placements, persistent resources and counts.
   rendergraph::Plan finish();
 
  private:

@@ -48,10 +48,10 @@ class Memory {
       ++holds[placement.heap];
       checkPlacement(placement);
     }
-    for (const RetainedResource& retained : plan_.retained) ++times[retained.resource];
+    for (const PersistentResource& persistent : plan_.persistent) ++times[persistent.resource];
     for (uint32_t i = 0; i < lives_.size(); ++i) {
       const bool expected = lives_[i].used() && !setting_.declaration.resources[i].imported();
-      expect(times[i] == (expected ? 1u : 0u), nameOf(i) + " is placed or retained too often or not at all");
+      expect(times[i] == (expected ? 1u : 0u), nameOf(i) + " is placed or persistent too often or not at all");
     }
     for (uint32_t heap = 0; heap < plan_.heaps.size(); ++heap) {
       expect(holds[heap] == 1 || (holds[heap] > 1 && !plan_.heaps[heap].dedicated), "a heap holds too few or too many");

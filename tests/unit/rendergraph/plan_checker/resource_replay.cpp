@@ -60,7 +60,7 @@ void ResourceReplay::start(const std::vector<Record>& inherited) {
     if (declared_.created()) continue;
     subresource.hasContent = true;
     subresource.owner = familyOf(0);
-    if (declared_.retained()) {
+    if (declared_.persistent()) {
       subresource.layout = restLayout();
       addRestRecord(subresource);
     } else {
@@ -377,7 +377,7 @@ void ResourceReplay::leave(Subresource& subresource, const Use& use, const StepU
 
 void ResourceReplay::finish() {
   for (Subresource& subresource : subresources_) {
-    if (!declared_.retained() || subresource.used || subresource.touched) finish(subresource);
+    if (!declared_.persistent() || subresource.used || subresource.touched) finish(subresource);
   }
 }
 
@@ -385,7 +385,7 @@ void ResourceReplay::finish(Subresource& subresource) {
   const auto end = static_cast<uint32_t>(setting_.plan.passes.size());
   const auto last = static_cast<uint32_t>(setting_.plan.submissions.size() - 1);
   AccessState after = declared_.after;
-  if (declared_.retained()) {
+  if (declared_.persistent()) {
     after = {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT,
              restLayout()};
   }
