@@ -9,7 +9,7 @@
 
 namespace lensgraph::rendergraph {
 
-void ExportTable::take(const Declaration& declaration, const BindingTable& table) {
+void ExportTable::take(const Declaration& declaration, const ResourceTable& table) {
   serial = declaration.serial;
   bound = table;
   exported.clear();
@@ -34,7 +34,7 @@ const FrameSlot& exporterOf(const std::vector<FrameSlot>& slots, const Handle<Ta
   }
   const FrameSlot* latest = nullptr;
   for (const FrameSlot& slot : slots) {
-    const bool isIts = slot.exports.serial == handle.graph && handle.resource < slot.exports.bound.size();
+    const bool isIts = slot.exports.serial == handle.graph && handle.resource < slot.exports.objects.size();
     if (isIts && (latest == nullptr || slot.frame > latest->frame)) latest = &slot;
   }
   if (latest == nullptr) {
@@ -76,7 +76,7 @@ FrameToken Executor::submit(const Graph& graph, const ExecuteOptions& options) {
   try {
     state_->prepare(declaration, compileOptionsOf(options, state_->slots.size()), slot, options.timing);
     Frame(*state_, slot, options.timing, options.recordingThreads).execute();
-    slot.exports.take(declaration, state_->frame.bound);
+    slot.exports.take(declaration, state_->frame.objects);
   } catch (...) {
     state_->abandon(slot);
     throw;
@@ -113,7 +113,7 @@ void Executor::record(const Graph& graph, VkCommandBuffer commands, const Execut
   try {
     state_->prepare(declaration, compile, slot, Timing::none);
     Frame(*state_, slot, Timing::none, 1).record(commands);
-    slot.exports.take(declaration, state_->frame.bound);
+    slot.exports.take(declaration, state_->frame.objects);
   } catch (...) {
     state_->abandon(slot);
     throw;
@@ -133,11 +133,11 @@ const Capture& Executor::capture() const {
 }
 
 VkImage Executor::exportedImage(Image image) const {
-  return exporterOf(state_->slots, image).exports.bound[image.resource].image;
+  return exporterOf(state_->slots, image).exports.objects[image.resource].image;
 }
 
 VkBuffer Executor::exportedBuffer(Buffer buffer) const {
-  return exporterOf(state_->slots, buffer).exports.bound[buffer.resource].buffer;
+  return exporterOf(state_->slots, buffer).exports.objects[buffer.resource].buffer;
 }
 
 std::span<const std::byte> Executor::mapped(Buffer buffer) const {
@@ -145,7 +145,7 @@ std::span<const std::byte> Executor::mapped(Buffer buffer) const {
   if (slot.state == FrameSlot::State::submitted) {
     refuse(Misuse::unfinishedFrame, "the frame that fills the buffer was not waited for", "call wait() before");
   }
-  const Bound& bound = slot.exports.bound[buffer.resource];
+  const ResourceObjects& bound = slot.exports.objects[buffer.resource];
   if (bound.address == nullptr) return {};
   return {bound.address, static_cast<std::size_t>(slot.exports.sizes[buffer.resource])};
 }

@@ -108,17 +108,17 @@ void ExecutorState::prepare(const Declaration& declared, const CompileOptions& c
   frame.capture = &slot.capture;
   frame.start = slot.start;
   beginCapture(slot.capture, declared, found->plan, timing);
-  frame.bound.assign(declared.resources.size(), {});
+  frame.objects.assign(declared.resources.size(), {});
   for (uint32_t index = 0; index < declared.resources.size(); ++index) {
     const DeclaredResource& resource = declared.resources[index];
     if (!resource.imported()) continue;
-    frame.bound[index] = {
+    frame.objects[index] = {
         .image = resource.importedImage, .buffer = resource.importedBuffer, .views = &slot.importedViews};
   }
   makeResources(declared, slot.index);
-  current->resources->bind(current->plan, slot.index, frame.bound);
+  current->resources->bind(current->plan, slot.index, frame.objects);
   frame.events = current->resources->events(slot.index);
-  persistent.prepare(declared, current->plan, frame.bound);
+  persistent.prepare(declared, current->plan, frame.objects);
   frame.timestamps = VK_NULL_HANDLE;
   if (timing == Timing::inlineTimestamps) openTimestamps(slot);
 }

@@ -15,10 +15,10 @@ namespace lensgraph::rendergraph {
 /// What a frame exported, so that it can be looked up when the graph is gone.
 struct ExportTable {
   uint32_t serial = 0;  // Of the declaration; 0: none.
-  BindingTable bound;
+  ResourceTable objects;
   std::vector<uint8_t> exported;
   std::vector<VkDeviceSize> sizes;  // Of buffers, bytes.
-  void take(const Declaration& declaration, const BindingTable& table);
+  void take(const Declaration& declaration, const ResourceTable& table);
 };
 
 /// One vkQueueSubmit2 of a frame.

@@ -147,10 +147,10 @@ struct PassContext::Inside {
         break;
       }
       case Binding::Kind::storageBuffer:
-        result.buffer = frame.bound[access.as(binding.buffer, Usage::storage).resource].buffer;
+        result.buffer = frame.objects[access.as(binding.buffer, Usage::storage).resource].buffer;
         break;
       case Binding::Kind::uniformBuffer:
-        result.buffer = frame.bound[access.as(binding.buffer, Usage::uniform).resource].buffer;
+        result.buffer = frame.objects[access.as(binding.buffer, Usage::uniform).resource].buffer;
         break;
     }
     return result;
@@ -181,7 +181,7 @@ CommandStream PassContext::commands() const {
 
 VkImage PassContext::image(Image image) const {
   const Inside inside(*this);
-  return inside.frame.bound[inside.access.any(image)].image;
+  return inside.frame.objects[inside.access.any(image)].image;
 }
 
 VkImageView PassContext::view(Image image, Subresources range, VkImageViewType type) const {
@@ -197,13 +197,13 @@ VkImageView PassContext::view(Image image, Subresources range, VkImageViewType t
 
 VkBuffer PassContext::buffer(Buffer buffer) const {
   const Inside inside(*this);
-  return inside.frame.bound[inside.access.any(buffer)].buffer;
+  return inside.frame.objects[inside.access.any(buffer)].buffer;
 }
 
 std::span<std::byte> PassContext::mapped(Buffer buffer) const {
   const Inside inside(*this);
   const DeclaredAccess& declared = inside.access.as(buffer, Usage::host);
-  std::byte* address = inside.frame.bound[declared.resource].address;
+  std::byte* address = inside.frame.objects[declared.resource].address;
   if (address == nullptr) return {};  // Imported: the host knows where it is.
   return {address, static_cast<std::size_t>(inside.bytes(declared))};
 }
@@ -230,7 +230,7 @@ void PassContext::dispatch(const Dispatch& dispatch) {
   const CommandStream& commands = inside.recording(pass_);
   VkBuffer indirect = VK_NULL_HANDLE;
   if (dispatch.indirect) {
-    indirect = inside.frame.bound[inside.access.as(dispatch.indirect, Usage::indirect).resource].buffer;
+    indirect = inside.frame.objects[inside.access.as(dispatch.indirect, Usage::indirect).resource].buffer;
   }
   inside.frame.backend.dispatch(commands, {.program = dispatch.program,
                                            .bindings = inside.resolve(dispatch.bindings),
@@ -278,8 +278,8 @@ void PassContext::copyImage(Image from, Image to) {
     region.srcSubresource = {a.aspects, a.firstMip + i, a.firstLayer, a.layerCount};
     region.dstSubresource = {b.aspects, b.firstMip + i, b.firstLayer, b.layerCount};
     region.extent = {extent.width, extent.height, 1};
-    inside.frame.backend.copyImage(inside.recording(pass_), inside.frame.bound[source.resource].image,
-                                   inside.frame.bound[target.resource].image, region);
+    inside.frame.backend.copyImage(inside.recording(pass_), inside.frame.objects[source.resource].image,
+                                   inside.frame.objects[target.resource].image, region);
   }
 }
 
@@ -300,8 +300,8 @@ void PassContext::copyImageToBuffer(Image from, Buffer to) {
   VkBufferImageCopy region{};
   region.imageSubresource = {aspects, source.range.firstMip, source.range.firstLayer, 1};
   region.imageExtent = {extent.width, extent.height, 1};
-  inside.frame.backend.copyImageToBuffer(inside.recording(pass_), inside.frame.bound[source.resource].image,
-                                         inside.frame.bound[target.resource].buffer, region);
+  inside.frame.backend.copyImageToBuffer(inside.recording(pass_), inside.frame.objects[source.resource].image,
+                                         inside.frame.objects[target.resource].buffer, region);
 }
 
 void PassContext::copyBuffer(Buffer from, Buffer to, VkDeviceSize bytes) {
@@ -313,8 +313,8 @@ void PassContext::copyBuffer(Buffer from, Buffer to, VkDeviceSize bytes) {
                        std::to_string(bytes) + " bytes are copied, but a buffer is smaller",
                        "copy at most the smaller of the two sizes");
   }
-  inside.frame.backend.copyBuffer(inside.recording(pass_), inside.frame.bound[source.resource].buffer,
-                                  inside.frame.bound[target.resource].buffer, bytes);
+  inside.frame.backend.copyBuffer(inside.recording(pass_), inside.frame.objects[source.resource].buffer,
+                                  inside.frame.objects[target.resource].buffer, bytes);
 }
 
 void PassContext::fillBuffer(Buffer to, uint32_t word, VkDeviceSize bytes) {
@@ -326,7 +326,7 @@ void PassContext::fillBuffer(Buffer to, uint32_t word, VkDeviceSize bytes) {
         std::to_string(bytes) + " bytes are filled of a buffer of " + std::to_string(inside.bytes(target)),
         "fill a multiple of 4 bytes, at least 4, that fit into the buffer");
   }
-  inside.frame.backend.fillBuffer(inside.recording(pass_), inside.frame.bound[target.resource].buffer, word, bytes);
+  inside.frame.backend.fillBuffer(inside.recording(pass_), inside.frame.objects[target.resource].buffer, word, bytes);
 }
 
 void PassContext::updateBuffer(Buffer to, std::span<const std::byte> bytes) {
@@ -339,7 +339,7 @@ void PassContext::updateBuffer(Buffer to, std::span<const std::byte> bytes) {
         std::to_string(bytes.size()) + " bytes are written to a buffer of " + std::to_string(inside.bytes(target)),
         "write a multiple of 4 bytes, at least 4, that fit into the buffer");
   }
-  const VkBuffer buffer = inside.frame.bound[target.resource].buffer;
+  const VkBuffer buffer = inside.frame.objects[target.resource].buffer;
   for (std::size_t done = 0; done < bytes.size(); done += kMostAtOnce) {
     const auto part = bytes.subspan(done, std::min(kMostAtOnce, bytes.size() - done));
     inside.frame.backend.updateBuffer(inside.recording(pass_), buffer, done, part);
@@ -351,7 +351,7 @@ void PassContext::clearImage(Image to, const VkClearColorValue& value) {
   const DeclaredAccess& target = inside.access.as(to, Usage::transferDestination);
   const Subresources& r = target.range;
   const VkImageSubresourceRange range{r.aspects, r.firstMip, r.mipCount, r.firstLayer, r.layerCount};
-  const VkImage image = inside.frame.bound[target.resource].image;
+  const VkImage image = inside.frame.objects[target.resource].image;
   if ((r.aspects & VK_IMAGE_ASPECT_COLOR_BIT) != 0) {
     inside.frame.backend.clearImage(inside.recording(pass_), image, value, range);
   } else {

@@ -27,7 +27,7 @@ struct FrameContext {
   Backend& backend;
   const Declaration* declaration = nullptr;
   const Plan* plan = nullptr;
-  BindingTable bound;
+  ResourceTable objects;
   std::span<const UniqueEvent> events;  ///< Of Plan::events.
   Capture* capture = nullptr;          ///< Each step writes its own times.
   Clock::time_point start;

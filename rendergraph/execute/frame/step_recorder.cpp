@@ -74,7 +74,7 @@ VkDependencyInfo StepRecorder::dependencyOf(const BarrierBatch& batch) {
     image.oldLayout = barrier.oldLayout;
     image.newLayout = barrier.newLayout;
     setFamilies(queues, barrier.fromQueue, barrier.toQueue, image);
-    image.image = frame_->bound[barrier.resource].image;
+    image.image = frame_->objects[barrier.resource].image;
     image.subresourceRange = {barrier.range.aspects, barrier.range.firstMip, barrier.range.mipCount,
                               barrier.range.firstLayer, barrier.range.layerCount};
   }
@@ -86,7 +86,7 @@ VkDependencyInfo StepRecorder::dependencyOf(const BarrierBatch& batch) {
     buffer.dstStageMask = barrier.to.stages;
     buffer.dstAccessMask = barrier.to.access;
     setFamilies(queues, barrier.fromQueue, barrier.toQueue, buffer);
-    buffer.buffer = frame_->bound[barrier.resource].buffer;
+    buffer.buffer = frame_->objects[barrier.resource].buffer;
     buffer.size = VK_WHOLE_SIZE;
   }
   VkDependencyInfo dependency{};

@@ -83,7 +83,7 @@ void PersistentStore::make(const DeclaredResource& resource, const Entry& entry,
   side = std::move(made);
 }
 
-void PersistentStore::prepare(const Declaration& declaration, const Plan& plan, BindingTable& table) {
+void PersistentStore::prepare(const Declaration& declaration, const Plan& plan, ResourceTable& table) {
   current_.clear();
   // Both sides of a history share the flags, so all entries are settled before anything is made.
   for (const PersistentResource& persistent : plan.persistent) {

@@ -26,7 +26,7 @@ class PersistentStore {
 
   /// Makes what the plan needs and does not exist, or has another description or too few usage flags; enters all of it
   /// into the table. Throws GraphError (outOfMemory, device) that names the resource.
-  void prepare(const Declaration& declaration, const Plan& plan, BindingTable& table);
+  void prepare(const Declaration& declaration, const Plan& plan, ResourceTable& table);
 
   /// Whether the frame begins with commands of its own, on the first queue: the zeroing of what is new, and the change
   /// of layout where another plan left a different one.

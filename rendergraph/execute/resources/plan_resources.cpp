@@ -111,7 +111,7 @@ void PlanResources::prepare(Backend& backend, HeapPool& pool, const Declaration&
   }
 }
 
-void PlanResources::bind(const Plan& plan, uint32_t slot, BindingTable& table) {
+void PlanResources::bind(const Plan& plan, uint32_t slot, ResourceTable& table) {
   for (std::size_t i = 0; i < plan.placements.size(); ++i) {
     const Placement& placement = plan.placements[i];
     const bool hostVisible = plan.heaps[placement.heap].memory != MemoryKind::device;

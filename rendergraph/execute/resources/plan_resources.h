@@ -43,7 +43,7 @@ class PlanResources {
   /// before. Throws GraphError that names the resource; what was made remains, for the next attempt.
   void prepare(Backend& backend, HeapPool& pool, const Declaration& declaration, const Plan& plan, uint32_t slot);
   /// Enters the plan's own resources. Precondition: prepare() for this slot.
-  void bind(const Plan& plan, uint32_t slot, BindingTable& table);
+  void bind(const Plan& plan, uint32_t slot, ResourceTable& table);
   std::span<const UniqueEvent> events(uint32_t slot) const { return slots_[slot].events; }
 
  private:

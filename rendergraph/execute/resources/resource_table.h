@@ -10,13 +10,13 @@ namespace lensgraph::rendergraph {
 
 class ViewCache;
 
-struct Bound {
+struct ResourceObjects {
   VkImage image = VK_NULL_HANDLE;
   VkBuffer buffer = VK_NULL_HANDLE;
   ViewCache* views = nullptr;    ///< Where its views live.
   std::byte* address = nullptr;  ///< Of host-visible buffers.
 };
 
-using BindingTable = std::vector<Bound>;  ///< By resource of the declaration.
+using ResourceTable = std::vector<ResourceObjects>;  ///< By resource of the declaration.
 
 }  // namespace lensgraph::rendergraph
