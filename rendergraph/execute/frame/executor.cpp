@@ -28,12 +28,12 @@ namespace {
 
 /// The slot of the latest frame that this graph gave.
 template <class Tag>
-const FrameSlot& exporterOf(const std::vector<FrameSlot>& slots, const Handle<Tag>& handle) {
+const FrameInFlight& exporterOf(const std::vector<FrameInFlight>& slots, const Handle<Tag>& handle) {
   if (!handle) {
     refuse(Misuse::unknownHandle, "the handle was never given a resource", "use a handle that the graph returned");
   }
-  const FrameSlot* latest = nullptr;
-  for (const FrameSlot& slot : slots) {
+  const FrameInFlight* latest = nullptr;
+  for (const FrameInFlight& slot : slots) {
     const bool isIts = slot.exports.serial == handle.graph && handle.resource < slot.exports.objects.size();
     if (isIts && (latest == nullptr || slot.frame > latest->frame)) latest = &slot;
   }
@@ -71,17 +71,17 @@ FrameToken Executor::submit(const Graph& graph, const ExecuteOptions& options) {
   const Clock::time_point start = Clock::now();
   const Declaration& declaration = graph.declaration();
   if (options.timing == Timing::isolated) state_->waitForAll();
-  FrameSlot& slot = state_->openSlot();
+  FrameInFlight& slot = state_->openSlot();
   slot.start = start;
   try {
     state_->prepare(declaration, compileOptionsOf(options, state_->slots.size()), slot, options.timing);
-    Frame(*state_, slot, options.timing, options.recordingThreads).execute();
+    FrameRunner(*state_, slot, options.timing, options.recordingThreads).execute();
     slot.exports.take(declaration, state_->frame.objects);
   } catch (...) {
     state_->abandon(slot);
     throw;
   }
-  state_->closeSlot(slot, FrameSlot::State::submitted);
+  state_->closeSlot(slot, FrameInFlight::State::submitted);
   return {slot.frame};
 }
 
@@ -90,8 +90,8 @@ void Executor::wait(FrameToken frame) {
 }
 
 bool Executor::isFinished(FrameToken frame) const {
-  for (const FrameSlot& slot : state_->slots) {
-    if (slot.state != FrameSlot::State::submitted || slot.frame > frame.number) continue;
+  for (const FrameInFlight& slot : state_->slots) {
+    if (slot.state != FrameInFlight::State::submitted || slot.frame > frame.number) continue;
     for (const SentSubmission& sent : slot.sent) {
       const VkSemaphore timeline = state_->timelines[sent.queue].semaphore.get();
       if (state_->backend.timelineValue(timeline) < sent.value) return false;
@@ -106,13 +106,13 @@ void Executor::execute(const Graph& graph, const ExecuteOptions& options) {
 
 void Executor::record(const Graph& graph, VkCommandBuffer commands, const ExecuteOptions& options) {
   const Declaration& declaration = graph.declaration();
-  FrameSlot& slot = state_->openSlot();
+  FrameInFlight& slot = state_->openSlot();
   slot.start = Clock::now();
   CompileOptions compile = compileOptionsOf({.compile = options.compile}, state_->slots.size());
   compile.useQueues = false;
   try {
     state_->prepare(declaration, compile, slot, Timing::none);
-    Frame(*state_, slot, Timing::none, 1).record(commands);
+    FrameRunner(*state_, slot, Timing::none, 1).record(commands);
     slot.exports.take(declaration, state_->frame.objects);
   } catch (...) {
     state_->abandon(slot);
@@ -120,7 +120,7 @@ void Executor::record(const Graph& graph, VkCommandBuffer commands, const Execut
   }
   slot.capture.frameWallMs = millisecondsSince(slot.start);
   std::swap(state_->capture, slot.capture);
-  state_->closeSlot(slot, FrameSlot::State::recorded);
+  state_->closeSlot(slot, FrameInFlight::State::recorded);
 }
 
 const Plan& Executor::plan() const {
@@ -141,8 +141,8 @@ VkBuffer Executor::exportedBuffer(Buffer buffer) const {
 }
 
 std::span<const std::byte> Executor::mapped(Buffer buffer) const {
-  const FrameSlot& slot = exporterOf(state_->slots, buffer);
-  if (slot.state == FrameSlot::State::submitted) {
+  const FrameInFlight& slot = exporterOf(state_->slots, buffer);
+  if (slot.state == FrameInFlight::State::submitted) {
     refuse(Misuse::unfinishedFrame, "the frame that fills the buffer was not waited for", "call wait() before");
   }
   const ResourceObjects& bound = slot.exports.objects[buffer.resource];

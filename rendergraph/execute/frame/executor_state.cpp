@@ -17,8 +17,8 @@ ExecutorState::ExecutorState(Backend& device, const ExecutorOptions& chosen)
 }
 
 ExecutorState::~ExecutorState() {
-  for (FrameSlot& slot : slots) {
-    if (slot.state != FrameSlot::State::submitted) continue;
+  for (FrameInFlight& slot : slots) {
+    if (slot.state != FrameInFlight::State::submitted) continue;
     try {
       waitForDevice(slot, slot.sent);
     } catch (...) {
@@ -44,10 +44,10 @@ Jobs& ExecutorState::jobs(uint32_t threadsWanted) {
 
 // ---- Before a frame
 
-FrameSlot& ExecutorState::openSlot() {
-  FrameSlot& slot = slots[lastFrame % slots.size()];
-  if (slot.state == FrameSlot::State::submitted) waitFor(slot.frame);
-  slot.state = FrameSlot::State::idle;  // A recorded one has finished: the host has promised it.
+FrameInFlight& ExecutorState::openSlot() {
+  FrameInFlight& slot = slots[lastFrame % slots.size()];
+  if (slot.state == FrameInFlight::State::submitted) waitFor(slot.frame);
+  slot.state = FrameInFlight::State::idle;  // A recorded one has finished: the host has promised it.
   deletionQueue.release(finishedFrame());
   deletionQueue.setLastUser(lastFrame);
   slot.importedViews.clear();
@@ -62,8 +62,8 @@ FrameSlot& ExecutorState::openSlot() {
 
 uint64_t ExecutorState::finishedFrame() const {
   uint64_t finished = lastFrame;
-  for (const FrameSlot& slot : slots) {
-    if (slot.state != FrameSlot::State::idle) finished = std::min(finished, slot.frame - 1);
+  for (const FrameInFlight& slot : slots) {
+    if (slot.state != FrameInFlight::State::idle) finished = std::min(finished, slot.frame - 1);
   }
   return finished;
 }
@@ -88,7 +88,7 @@ void ExecutorState::makeResources(const Declaration& declaration, uint32_t slot)
   }
 }
 
-void ExecutorState::prepare(const Declaration& declared, const CompileOptions& compileOptions, FrameSlot& slot,
+void ExecutorState::prepare(const Declaration& declared, const CompileOptions& compileOptions, FrameInFlight& slot,
                             Timing timing) {
   // Problems with handles leave no trace in the structure, so an equal structure does not excuse them.
   if (!declared.problems.empty()) throw GraphError(declared.problems);
@@ -123,7 +123,7 @@ void ExecutorState::prepare(const Declaration& declared, const CompileOptions& c
   if (timing == Timing::inlineTimestamps) openTimestamps(slot);
 }
 
-void ExecutorState::openTimestamps(FrameSlot& slot) {
+void ExecutorState::openTimestamps(FrameInFlight& slot) {
   constexpr uint32_t kMaxSteps = 4096;  // Later passes stay unmeasured.
   const auto steps = std::min(kMaxSteps, static_cast<uint32_t>(frame.plan->passes.size()));
   if (slot.timestampSteps < steps) {
@@ -141,7 +141,7 @@ void ExecutorState::openTimestamps(FrameSlot& slot) {
 
 // ---- After it
 
-void ExecutorState::closeSlot(FrameSlot& slot, FrameSlot::State state) {
+void ExecutorState::closeSlot(FrameInFlight& slot, FrameInFlight::State state) {
   persistent.commit();
   slot.frame = ++lastFrame;
   slot.state = state;
@@ -150,7 +150,7 @@ void ExecutorState::closeSlot(FrameSlot& slot, FrameSlot::State state) {
   deletionQueue.setLastUser(lastFrame);
 }
 
-void ExecutorState::abandon(FrameSlot& slot) noexcept {
+void ExecutorState::abandon(FrameInFlight& slot) noexcept {
   frame.declaration = nullptr;
   slot.exports.serial = 0;
   slot.importedViews.clear();
@@ -163,7 +163,7 @@ void ExecutorState::abandon(FrameSlot& slot) noexcept {
   } catch (...) {
     // The error that ended the frame is the one to report. The device may still be at work: the next call waits again.
     slot.frame = ++lastFrame;
-    slot.state = FrameSlot::State::submitted;
+    slot.state = FrameInFlight::State::submitted;
     slot.stamped.clear();
     deletionQueue.setLastUser(lastFrame);
   }
@@ -171,9 +171,9 @@ void ExecutorState::abandon(FrameSlot& slot) noexcept {
 
 void ExecutorState::waitFor(uint64_t frameNumber) {
   for (;;) {
-    FrameSlot* oldest = nullptr;
-    for (FrameSlot& slot : slots) {
-      if (slot.state != FrameSlot::State::submitted || slot.frame > frameNumber) continue;
+    FrameInFlight* oldest = nullptr;
+    for (FrameInFlight& slot : slots) {
+      if (slot.state != FrameInFlight::State::submitted || slot.frame > frameNumber) continue;
       if (oldest == nullptr || slot.frame < oldest->frame) oldest = &slot;
     }
     if (oldest == nullptr) return;
@@ -181,9 +181,9 @@ void ExecutorState::waitFor(uint64_t frameNumber) {
   }
 }
 
-void ExecutorState::finish(FrameSlot& slot) {
+void ExecutorState::finish(FrameInFlight& slot) {
   waitForDevice(slot, slot.sent);
-  slot.state = FrameSlot::State::idle;
+  slot.state = FrameInFlight::State::idle;
   slot.importedViews.clear();
   deletionQueue.release(finishedFrame());
   readStamps(slot);
@@ -191,7 +191,7 @@ void ExecutorState::finish(FrameSlot& slot) {
   std::swap(capture, slot.capture);
 }
 
-void ExecutorState::readStamps(FrameSlot& slot) {
+void ExecutorState::readStamps(FrameInFlight& slot) {
   if (slot.stamped.empty()) return;
   const double tickMs = backend.nanosecondsPerTick() * 1e-6;
   const auto between = [&](uint64_t from, uint64_t to) {  // Differences of ticks: a double keeps the nanoseconds.
@@ -218,7 +218,7 @@ void ExecutorState::readStamps(FrameSlot& slot) {
   }
 }
 
-const SentSubmission* ExecutorState::unfinished(const FrameSlot& slot) const {
+const SentSubmission* ExecutorState::unfinished(const FrameInFlight& slot) const {
   for (const SentSubmission& sent : slot.sent) {
     try {
       if (backend.timelineValue(timelines[sent.queue].semaphore.get()) < sent.value) return &sent;
@@ -229,7 +229,7 @@ const SentSubmission* ExecutorState::unfinished(const FrameSlot& slot) const {
   return nullptr;
 }
 
-void ExecutorState::waitForDevice(const FrameSlot& slot, std::span<const SentSubmission> sent) {
+void ExecutorState::waitForDevice(const FrameInFlight& slot, std::span<const SentSubmission> sent) {
   if (sent.empty()) return;
   waitedSemaphores.assign(timelines.size(), VK_NULL_HANDLE);
   waitedValues.assign(timelines.size(), 0);
@@ -264,7 +264,7 @@ void ExecutorState::waitForDevice(const FrameSlot& slot, std::span<const SentSub
 void ExecutorState::forget() {
   current = nullptr;
   lastHash = 0;
-  for (FrameSlot& slot : slots) {
+  for (FrameInFlight& slot : slots) {
     slot.exports = {};
     slot.importedViews.clear();
   }

@@ -44,7 +44,7 @@ struct ExecutorState {
   HeapPool pool;
   PlanCache plans{deletionQueue};
   PersistentStore persistent;
-  std::vector<FrameSlot> slots;
+  std::vector<FrameInFlight> slots;
 
   uint64_t lastFrame = 0;  // Number of the latest frame that was submitted or recorded.
   uint64_t lastHash = 0;   // Plan of the latest frame; 0: there is none, or it broke off.
@@ -53,7 +53,7 @@ struct ExecutorState {
   uint64_t compiled = 0, reused = 0;
 
   // During a frame, and kept for their memory:
-  FrameContext frame;
+  RecordingContext frame;
   std::vector<std::unique_ptr<StepRecorder>> lanes;
   std::vector<Chunk> chunks;
   std::vector<uint64_t> values;  // That stand for the plan's submissions, each on its queue's timeline.
@@ -64,15 +64,15 @@ struct ExecutorState {
   std::unique_ptr<ThreadPool> threads;  // Unless the host gave its own.
 
   /// The slot for the next frame; waits for the frame that used it last. Throws GraphError (deviceLost, device).
-  FrameSlot& openSlot();
+  FrameInFlight& openSlot();
   /// Finds or compiles the plan, makes its objects, and fills the frame context. Throws GraphError.
-  void prepare(const Declaration& declaration, const CompileOptions& options, FrameSlot& slot, Timing timing);
+  void prepare(const Declaration& declaration, const CompileOptions& options, FrameInFlight& slot, Timing timing);
   /// The frame was submitted or recorded.
-  void closeSlot(FrameSlot& slot, FrameSlot::State state);
+  void closeSlot(FrameInFlight& slot, FrameInFlight::State state);
   /// The frame broke off. Waits for what was submitted of it.
-  void abandon(FrameSlot& slot) noexcept;
+  void abandon(FrameInFlight& slot) noexcept;
   /// Waits for the slot's frame and takes what it measured. Throws GraphError (deviceLost, device).
-  void finish(FrameSlot& slot);
+  void finish(FrameInFlight& slot);
   /// Waits for all frames up to this one.
   void waitFor(uint64_t frame);
   /// This frame and all before it have finished, as far as the executor was told.
@@ -81,16 +81,16 @@ struct ExecutorState {
   void makeTimelines();
   /// Waits until these submissions of the slot's frame have finished. Throws GraphError (deviceLost, device) that says
   /// where the device stopped, as far as that can be known.
-  void waitForDevice(const FrameSlot& slot, std::span<const SentSubmission> sent);
+  void waitForDevice(const FrameInFlight& slot, std::span<const SentSubmission> sent);
   Jobs& jobs(uint32_t threadsWanted);
   /// Destroys resources and plans. No frame is under way.
   void forget();
 
  private:
   void makeResources(const Declaration& declaration, uint32_t slot);
-  void readStamps(FrameSlot& slot);
-  void openTimestamps(FrameSlot& slot);
-  const SentSubmission* unfinished(const FrameSlot& slot) const;
+  void readStamps(FrameInFlight& slot);
+  void openTimestamps(FrameInFlight& slot);
+  const SentSubmission* unfinished(const FrameInFlight& slot) const;
 };
 
 }  // namespace lensgraph::rendergraph

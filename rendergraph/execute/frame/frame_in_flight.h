@@ -31,7 +31,7 @@ struct SentSubmission {
   double sentMs = 0.0;  // Since the frame's beginning.
 };
 
-struct FrameSlot {
+struct FrameInFlight {
   enum class State : uint8_t {
     idle,
     submitted,

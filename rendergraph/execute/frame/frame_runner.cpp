@@ -21,12 +21,12 @@ constexpr uint32_t kMaxThreads = 64;  // More lanes than that only cost command 
 
 // ---- What stands before everything else
 
-bool Frame::needsStart() const {
+bool FrameRunner::needsStart() const {
   const bool others = state_.slots.size() > 1 && state_.lastFrame > 0 && state_.lastHash != state_.current->hash;
   return others || state_.persistent.needsStart();
 }
 
-void Frame::recordStart(const CommandStream& commands) {
+void FrameRunner::recordStart(const CommandStream& commands) {
   if (!needsStart()) return;
   state_.backend.beginLabel(commands, "frame start");
   if (state_.slots.size() > 1) {
@@ -49,16 +49,16 @@ void Frame::recordStart(const CommandStream& commands) {
 
 // ---- Cutting
 
-bool Frame::endsWithHostPass(uint32_t submission) const {
+bool FrameRunner::endsWithHostPass(uint32_t submission) const {
   const std::span<const PlannedPass> steps = state_.current->plan.stepsOf(state_.current->plan.submissions[submission]);
   return !steps.empty() && state_.frame.declared(steps.back()).kind == PassKind::host;
 }
 
-uint32_t Frame::deviceSteps(uint32_t submission) const {
+uint32_t FrameRunner::deviceSteps(uint32_t submission) const {
   return state_.current->plan.submissions[submission].steps.count - (endsWithHostPass(submission) ? 1 : 0);
 }
 
-void Frame::cutSubmission(uint32_t submission, uint32_t& position, uint32_t total, uint32_t lanes) {
+void FrameRunner::cutSubmission(uint32_t submission, uint32_t& position, uint32_t total, uint32_t lanes) {
   const Plan& plan = state_.current->plan;
   std::vector<Chunk>& chunks = state_.chunks;
   const bool isolated = timing_ == Timing::isolated;
@@ -87,7 +87,7 @@ void Frame::cutSubmission(uint32_t submission, uint32_t& position, uint32_t tota
   chunks.back().ends = true;
 }
 
-void Frame::cutChunks(uint32_t first, uint32_t last) {
+void FrameRunner::cutChunks(uint32_t first, uint32_t last) {
   state_.chunks.clear();
   uint32_t total = 0, position = 0;
   for (uint32_t submission = first; submission <= last; ++submission) total += deviceSteps(submission);
@@ -100,12 +100,12 @@ void Frame::cutChunks(uint32_t first, uint32_t last) {
 
 // ---- Recording
 
-UniqueRecorder& Frame::recorder(uint32_t lane, uint32_t queue) {
+UniqueRecorder& FrameRunner::recorder(uint32_t lane, uint32_t queue) {
   return slot_.recorders[lane * state_.backend.queues().size() + queue];
 }
 
 /// Everything the lanes need is made here, on one thread.
-void Frame::openLanes() {
+void FrameRunner::openLanes() {
   const std::size_t queues = state_.backend.queues().size();
   const uint32_t lanes = state_.chunks.empty() ? 0 : state_.chunks.back().lane + 1;
   while (state_.lanes.size() < lanes) state_.lanes.push_back(std::make_unique<StepRecorder>(state_.frame));
@@ -120,7 +120,7 @@ void Frame::openLanes() {
   }
 }
 
-void Frame::recordChunk(Chunk& chunk) {
+void FrameRunner::recordChunk(Chunk& chunk) {
   const PlannedSubmission& submission = state_.current->plan.submissions[chunk.submission];
   const bool waits = chunk.ends && endsWithHostPass(chunk.submission);
   const PlannedPass* host = waits ? &state_.current->plan.stepsOf(submission).back() : nullptr;
@@ -138,13 +138,13 @@ void Frame::recordChunk(Chunk& chunk) {
   chunk.commands = commands;
 }
 
-void Frame::recordLane(uint32_t lane) {
+void FrameRunner::recordLane(uint32_t lane) {
   for (Chunk& chunk : state_.chunks) {
     if (chunk.lane == lane) recordChunk(chunk);
   }
 }
 
-void Frame::recordSegment(uint32_t first, uint32_t last) {
+void FrameRunner::recordSegment(uint32_t first, uint32_t last) {
   cutChunks(first, last);
   openLanes();
   const uint32_t lanes = state_.chunks.back().lane + 1;
@@ -171,7 +171,7 @@ void Frame::recordSegment(uint32_t first, uint32_t last) {
 
 // ---- Submission
 
-void Frame::submit(uint32_t submission, std::span<const Chunk> chunks) {
+void FrameRunner::submit(uint32_t submission, std::span<const Chunk> chunks) {
   const PlannedSubmission& planned = state_.current->plan.submissions[submission];
   QueueTimeline& timeline = state_.timelines[planned.queue];
   state_.buffers.clear();
@@ -222,14 +222,14 @@ void Frame::submit(uint32_t submission, std::span<const Chunk> chunks) {
   state_.values[submission] = timeline.value = signal.value;
 }
 
-void Frame::waitForSubmission(uint32_t submission) {
+void FrameRunner::waitForSubmission(uint32_t submission) {
   const auto sent = std::find_if(slot_.sent.rbegin(), slot_.sent.rend(),
                                  [&](const SentSubmission& one) { return one.submission == submission; });
   if (sent != slot_.sent.rend()) state_.waitForDevice(slot_, {&*sent, 1});  // Else the device had nothing to do.
 }
 
 /// Isolated timing: every chunk alone on the device, timed by the host.
-void Frame::submitMeasured(uint32_t submission, std::span<const Chunk> chunks) {
+void FrameRunner::submitMeasured(uint32_t submission, std::span<const Chunk> chunks) {
   for (const Chunk& chunk : chunks) {
     const double startMs = millisecondsSince(slot_.start);
     submit(submission, {&chunk, 1});
@@ -241,7 +241,7 @@ void Frame::submitMeasured(uint32_t submission, std::span<const Chunk> chunks) {
   }
 }
 
-void Frame::submitSegment(uint32_t first, uint32_t last) {
+void FrameRunner::submitSegment(uint32_t first, uint32_t last) {
   const double startMs = millisecondsSince(slot_.start);
   std::span<const Chunk> rest(state_.chunks);
   for (uint32_t submission = first; submission <= last; ++submission) {
@@ -256,7 +256,7 @@ void Frame::submitSegment(uint32_t first, uint32_t last) {
   frameMs = std::max(0.0, frameMs) + millisecondsSince(slot_.start) - startMs;
 }
 
-void Frame::execute() {
+void FrameRunner::execute() {
   const Plan& plan = state_.current->plan;
   const auto submissions = static_cast<uint32_t>(plan.submissions.size());
   state_.makeTimelines();
@@ -274,7 +274,7 @@ void Frame::execute() {
   }
 }
 
-void Frame::refuseHostPasses() const {
+void FrameRunner::refuseHostPasses() const {
   for (const PlannedPass& planned : state_.current->plan.passes) {
     const DeclaredPass& pass = state_.frame.declared(planned);
     if (pass.kind != PassKind::host) continue;
@@ -284,7 +284,7 @@ void Frame::refuseHostPasses() const {
   }
 }
 
-void Frame::record(VkCommandBuffer commands) {
+void FrameRunner::record(VkCommandBuffer commands) {
   refuseHostPasses();
   const Plan& plan = state_.current->plan;
   state_.chunks.assign(1, {.commands = {}});

@@ -8,10 +8,10 @@
 
 namespace lensgraph::rendergraph {
 
-class Frame {
+class FrameRunner {
  public:
   /// `threads`: that record at once, at least 1.
-  Frame(ExecutorState& state, FrameSlot& slot, Timing timing, uint32_t threads)
+  FrameRunner(ExecutorState& state, FrameInFlight& slot, Timing timing, uint32_t threads)
       : state_(state), slot_(slot), timing_(timing), threads_(threads) {}
 
   /// Records and submits everything. What a recording throws passes through.
@@ -38,7 +38,7 @@ class Frame {
   void refuseHostPasses() const;
 
   ExecutorState& state_;
-  FrameSlot& slot_;
+  FrameInFlight& slot_;
   Timing timing_;
   uint32_t threads_;
 };

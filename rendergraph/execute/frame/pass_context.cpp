@@ -169,7 +169,7 @@ struct PassContext::Inside {
     return frame.declaration->resources[declared.resource].buffer.size;
   }
 
-  FrameContext& frame;
+  RecordingContext& frame;
   Access access;
   const CommandStream& commands;
   std::vector<ResolvedBinding>& bindings;

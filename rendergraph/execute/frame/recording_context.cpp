@@ -6,7 +6,7 @@
 
 namespace lensgraph::rendergraph {
 
-VkImageView FrameContext::viewOf(uint32_t resource, const Subresources& range, VkImageViewType type) {
+VkImageView RecordingContext::viewOf(uint32_t resource, const Subresources& range, VkImageViewType type) {
   const DeclaredResource& declared = declaration->resources[resource];
   const ResourceObjects& object = bound[resource];
   const ViewDesc desc{.image = object.image, .format = declared.image.format, .type = type, .range = range};

@@ -21,8 +21,8 @@ inline double millisecondsSince(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-struct FrameContext {
-  explicit FrameContext(Backend& device) : backend(device) {}
+struct RecordingContext {
+  explicit RecordingContext(Backend& device) : backend(device) {}
 
   Backend& backend;
   const Declaration* declaration = nullptr;

@@ -12,7 +12,7 @@ namespace lensgraph::rendergraph {
 
 class StepRecorder {
  public:
-  explicit StepRecorder(FrameContext& frame) : frame_(&frame) {}
+  explicit StepRecorder(RecordingContext& frame) : frame_(&frame) {}
 
   /// Where the steps go from now on.
   void setCommands(const CommandStream& commands) { commands_ = commands; }
@@ -38,7 +38,7 @@ class StepRecorder {
   /// Valid until the next call.
   VkDependencyInfo dependencyOf(const BarrierBatch& batch);
 
-  FrameContext* frame_;
+  RecordingContext* frame_;
   CommandStream commands_;
   const PlannedPass* planned_ = nullptr;  // The step being recorded.
   // Of the rendering that is going on:

@@ -21,7 +21,7 @@ class HandMade {
 
   template <class Rewrite>
   void run(const Graph& graph, Rewrite&& rewrite, uint32_t threads = 1) {
-    FrameSlot& slot = state_.openSlot();
+    FrameInFlight& slot = state_.openSlot();
     // The plan that the executor finds under the declaration's hash is the one made by hand.
     const CompileOptions options;
     const uint64_t hash = structuralHash(graph.declaration(), options);
@@ -30,7 +30,7 @@ class HandMade {
     }
     state_.prepare(graph.declaration(), options, slot, Timing::none);
     Frame(state_, slot, Timing::none, threads).execute();
-    state_.closeSlot(slot, FrameSlot::State::submitted);
+    state_.closeSlot(slot, FrameInFlight::State::submitted);
   }
   ExecutorState& state() { return state_; }
 
