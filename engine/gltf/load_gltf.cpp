@@ -267,7 +267,7 @@ void merge(Scene& scene, Scene added) {
 
 }  // namespace
 
-glm::dmat4 worldFromPlacement(const Placement& placement) {
+glm::dmat4 worldFromFileTransform(const FileTransform& placement) {
   const auto isFinite3 = [](const glm::dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
   };

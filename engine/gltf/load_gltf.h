@@ -21,14 +21,14 @@
 namespace lensgraph::engine {
 
 /// Where a file stands in the world: worldFromFile = T · R · S, as a glTF node's.
-struct Placement {
+struct FileTransform {
   glm::dvec3 translation{0.0};
   glm::dvec4 rotation{0.0, 0.0, 0.0, 1.0};  ///< Quaternion x, y, z, w; need not be normalised, must not be zero.
   glm::dvec3 scale{1.0};
 };
 
 /// Throws Error (fields "rotation", "translation", "scale"): non-finite numbers, zero quaternion.
-glm::dmat4 worldFromPlacement(const Placement& placement);
+glm::dmat4 worldFromFileTransform(const FileTransform& placement);
 
 struct GltfOptions {
   /// False leaves out normal, metallic-roughness and occlusion textures: nothing of them shows in unlit

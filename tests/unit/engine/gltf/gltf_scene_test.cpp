@@ -13,7 +13,7 @@ namespace lensgraph {
 
 namespace {
 
-using engine::Placement;
+using engine::FileTransform;
 using engine::Scene;
 using test::GltfBuilder;
 using test::Json;
@@ -208,7 +208,7 @@ TEST(GltfScene, AppendedFilesKeepTheirOwnMaterials) {
   };
   Scene scene;
   engine::appendGltf(scene, fileWith("a.gltf", 0.25));
-  engine::appendGltf(scene, fileWith("b.gltf", 0.5), engine::worldFromPlacement({.translation = {0, 0, -3}}));
+  engine::appendGltf(scene, fileWith("b.gltf", 0.5), engine::worldFromFileTransform({.translation = {0, 0, -3}}));
   ASSERT_EQ(scene.instances.size(), 2u);
   EXPECT_THAT(engine::findProblems(scene), IsEmpty());
   const auto redOf = [&](size_t instance) {
@@ -233,15 +233,15 @@ TEST(GltfScene, AFailedFileLeavesTheSceneAsItWas) {
 
 TEST(GltfScene, PlacementScalesThenTurnsThenMoves) {
   const double half = std::sqrt(0.5);
-  const glm::dmat4 matrix = engine::worldFromPlacement(
+  const glm::dmat4 matrix = engine::worldFromFileTransform(
       {.translation = {1, 2, 3}, .rotation = {0, 2 * half, 0, 2 * half}, .scale = {2, 1, 1}});
   expectPoint(matrix, {1, 0, 0}, {1, 2, 1});  // (2,0,0) turned 90 degrees about +Y is (0,0,-2)
 }
 
 TEST(GltfScene, PlacementRefusesNonsense) {
-  EXPECT_THROW(engine::worldFromPlacement({.rotation = {0, 0, 0, 0}}), engine::Error);
-  EXPECT_THROW(engine::worldFromPlacement({.translation = {NAN, 0, 0}}), engine::Error);
-  EXPECT_THROW(engine::worldFromPlacement({.scale = {1, INFINITY, 1}}), engine::Error);
+  EXPECT_THROW(engine::worldFromFileTransform({.rotation = {0, 0, 0, 0}}), engine::Error);
+  EXPECT_THROW(engine::worldFromFileTransform({.translation = {NAN, 0, 0}}), engine::Error);
+  EXPECT_THROW(engine::worldFromFileTransform({.scale = {1, INFINITY, 1}}), engine::Error);
 }
 
 TEST(Scene, FindsProblemsOfScenesMadeByHand) {
