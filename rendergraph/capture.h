@@ -44,19 +44,19 @@ struct CapturedPass {
 };
 
 struct CapturedResource {
-  static constexpr uint32_t kNowhere = UINT32_MAX;
+  static constexpr uint32_t kNone = UINT32_MAX;
   std::string name;
   std::string_view origin;  ///< "created", "imported", "persistent", "history previous", "history next".
   bool isImage = true;
   VkFormat format = VK_FORMAT_UNDEFINED;  ///< Images only, as are the four below.
   uint32_t width = 0, height = 0, layers = 1, mips = 1;
   VkDeviceSize contentBytes = 0;  ///< Of all its texels, or of the buffer; without the device's padding.
-  uint32_t heap = kNowhere;       ///< Index in Capture::heaps; kNowhere: not placed by the graph.
+  uint32_t heap = kNone;       ///< Index in Capture::heaps; kNone: not placed by the graph.
   VkDeviceSize offset = 0;        ///< Bytes in the heap.
   VkDeviceSize size = 0;          ///< Bytes in the heap, as the device asks for.
-  /// Steps (positions in Capture::passes) between which it is needed, inclusive; kNowhere: no kept pass uses it.
+  /// Steps (positions in Capture::passes) between which it is needed, inclusive; kNone: no kept pass uses it.
   /// lastStep is passes.size() when its content is seen after the frame.
-  uint32_t firstStep = kNowhere, lastStep = kNowhere;
+  uint32_t firstStep = kNone, lastStep = kNone;
   bool operator==(const CapturedResource&) const = default;
 };
 

@@ -17,7 +17,7 @@ struct Handle {
   uint32_t graph = 0;              ///< Serial number of the declaration that made it; 0 is no graph.
 
   /// True when the handle came from a graph at all (it may still be stale).
-  explicit operator bool() const { return resource != UINT32_MAX; }
+  explicit operator bool() const { return resource != kNone; }
   bool operator==(const Handle&) const = default;
 };
 

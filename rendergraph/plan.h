@@ -29,8 +29,8 @@ namespace lensgraph::rendergraph {
 
 /// A use of a resource that a barrier waits for, or that waits for it.
 struct AccessPoint {
-  static constexpr uint32_t kOutside = std::numeric_limits<uint32_t>::max();
-  uint32_t pass = kOutside;  ///< kOutside: the host before or after the graph, or the frame before this one.
+  static constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
+  uint32_t pass = kNone;  ///< kNone: the host before or after the graph, or the frame before this one.
   VkPipelineStageFlags2 stages = 0;
   VkAccessFlags2 access = 0;
   bool operator==(const AccessPoint&) const = default;
@@ -48,7 +48,7 @@ enum class BarrierReason : uint8_t {
 };
 
 /// Marks a barrier that leaves the ownership as it is.
-inline constexpr uint32_t kSameQueue = std::numeric_limits<uint32_t>::max();
+inline constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
 
 /// `to` covers every use that the barrier serves: a run of reads by several passes waits once, before the first.
 struct ImageBarrier {
@@ -57,8 +57,8 @@ struct ImageBarrier {
   AccessPoint from = {}, to = {};
   VkImageLayout oldLayout = VK_IMAGE_LAYOUT_UNDEFINED;
   VkImageLayout newLayout = VK_IMAGE_LAYOUT_UNDEFINED;
-  uint32_t fromQueue = kSameQueue;  ///< Release and acquire: index among the device's queues.
-  uint32_t toQueue = kSameQueue;
+  uint32_t fromQueue = kNone;  ///< Release and acquire: index among the device's queues.
+  uint32_t toQueue = kNone;
   BarrierReason reason = BarrierReason::layout;
   bool operator==(const ImageBarrier&) const = default;
 };
@@ -66,7 +66,7 @@ struct ImageBarrier {
 struct BufferBarrier {
   uint32_t resource = 0;
   AccessPoint from = {}, to = {};
-  uint32_t fromQueue = kSameQueue, toQueue = kSameQueue;
+  uint32_t fromQueue = kNone, toQueue = kNone;
   BarrierReason reason = BarrierReason::readAfterWrite;
   bool operator==(const BufferBarrier&) const = default;
 };
@@ -93,13 +93,13 @@ struct PlannedEvent {
 };
 
 struct PlannedAttachment {
-  static constexpr uint32_t kNoResolve = std::numeric_limits<uint32_t>::max();
+  static constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
   uint32_t resource = 0;
   Subresources range;
   VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
   VkAttachmentLoadOp load = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
   VkAttachmentStoreOp store = VK_ATTACHMENT_STORE_OP_STORE;
-  uint32_t resolve = kNoResolve;  ///< Index in Plan::attachments of the image that receives the mean of the samples.
+  uint32_t resolve = kNone;  ///< Index in Plan::attachments of the image that receives the mean of the samples.
   bool operator==(const PlannedAttachment&) const = default;
 };
 

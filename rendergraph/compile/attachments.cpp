@@ -90,7 +90,7 @@ class Rendering {
     planned.colors = {first, static_cast<uint32_t>(colors_.size())};
     planned.depth = {first + planned.colors.count, static_cast<uint32_t>(depths_.size())};
     for (PlannedAttachment& color : colors_) {
-      if (color.resolve != PlannedAttachment::kNoResolve) color.resolve += planned.depth.first + planned.depth.count;
+      if (color.resolve != kNone) color.resolve += planned.depth.first + planned.depth.count;
     }
     plan.attachments.insert(plan.attachments.end(), colors_.begin(), colors_.end());
     plan.attachments.insert(plan.attachments.end(), depths_.begin(), depths_.end());

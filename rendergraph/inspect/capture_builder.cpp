@@ -89,7 +89,7 @@ void describeResource(CapturedResource& out, const DeclaredResource& resource) {
 
 /// Steps of what the graph has not placed: from its first to its last use.
 void widenLifetime(CapturedResource& resource, uint32_t step) {
-  if (resource.firstStep == CapturedResource::kNowhere) resource.firstStep = step;
+  if (resource.firstStep == kNone) resource.firstStep = step;
   resource.lastStep = step;
 }
 
@@ -111,7 +111,7 @@ void describeMemory(Capture& capture, const Declaration& declaration, const Plan
   }
   for (std::size_t i = 0; i < capture.resources.size(); ++i) {
     CapturedResource& resource = capture.resources[i];
-    const bool used = resource.firstStep != CapturedResource::kNowhere;
+    const bool used = resource.firstStep != kNone;
     if (used && declaration.resources[i].observable()) resource.lastStep = static_cast<uint32_t>(plan.passes.size());
   }
   capture.heaps.clear();
@@ -156,7 +156,7 @@ void beginCapture(Capture& capture, const Declaration& declaration, const Plan& 
 VkDeviceSize bytesAlive(const Capture& capture, uint32_t step) {
   VkDeviceSize bytes = 0;
   for (const CapturedResource& resource : capture.resources) {
-    if (resource.heap == CapturedResource::kNowhere) continue;
+    if (resource.heap == kNone) continue;
     if (resource.firstStep <= step && step <= resource.lastStep) bytes += resource.size;
   }
   return bytes;

@@ -28,7 +28,7 @@ struct OrNull {
 };
 
 std::ostream& operator<<(std::ostream& out, OrNull number) {
-  if (number.value == CapturedResource::kNowhere) return out << "null";
+  if (number.value == kNone) return out << "null";
   return out << number.value;
 }
 
@@ -72,7 +72,7 @@ void writeResources(std::ostream& out, const Capture& capture) {
           << resource.height << "], \"layers\": " << resource.layers << ", \"mips\": " << resource.mips;
     }
     out << ", \"contentBytes\": " << resource.contentBytes << ", \"heap\": " << OrNull{resource.heap};
-    if (resource.heap != CapturedResource::kNowhere) {
+    if (resource.heap != kNone) {
       out << ", \"offset\": " << resource.offset << ", \"size\": " << resource.size;
     }
     out << ", \"firstStep\": " << OrNull{resource.firstStep} << ", \"lastStep\": " << OrNull{resource.lastStep} << "}";

@@ -78,7 +78,7 @@ class Words {
   Words(const Declaration& declaration) : declaration_(declaration) {}
   std::string resource(uint32_t index) const { return std::string(declaration_.resources[index].name); }
   std::string pass(uint32_t index) const {
-    return index == AccessPoint::kOutside ? "host" : std::string(declaration_.passes[index].name);
+    return index == kNone ? "host" : std::string(declaration_.passes[index].name);
   }
   std::string range(uint32_t index, const Subresources& range) const {
     const DeclaredResource& resource = declaration_.resources[index];

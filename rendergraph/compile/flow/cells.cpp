@@ -28,7 +28,7 @@ void Cells::addEntry(uint32_t access) {
   const DeclaredAccess& declared = declaration_.accesses[access];
   const Grid& grid = grids_[declared.resource];
   if (grid.count() == 1) {
-    entries_[access] = {grid.firstCell, kSingle};
+    entries_[access] = {grid.firstCell, kNone};
     return;
   }
   entries_[access] = {grid.firstCell, static_cast<uint32_t>(blocks_.size())};

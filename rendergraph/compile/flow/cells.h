@@ -29,7 +29,7 @@ class Cells {
   template <class Use>
   void forEach(uint32_t access, Use&& use) const {
     const Entry& entry = entries_[access];
-    if (entry.block == kSingle) {
+    if (entry.block == kNone) {
       use(entry.cell);
       return;
     }
@@ -48,7 +48,7 @@ class Cells {
   Subresources rangeOf(uint32_t resource, uint32_t cell) const;
 
  private:
-  static constexpr uint32_t kSingle = UINT32_MAX;
+  static constexpr uint32_t kNone = UINT32_MAX;
 
   /// Parts of one axis: part i goes from bounds_[first + i] to bounds_[first + i + 1].
   struct Axis {
@@ -70,7 +70,7 @@ class Cells {
   /// Nearly all accesses touch the one cell of their resource.
   struct Entry {
     uint32_t cell;
-    uint32_t block;  // Index of blocks_, or kSingle.
+    uint32_t block;  // Index of blocks_, or kNone.
   };
 
   Axis divide(uint32_t total, std::vector<uint32_t>& cuts);

@@ -8,7 +8,7 @@ namespace lensgraph::rendergraph {
 
 namespace {
 
-constexpr uint32_t kEnd = UINT32_MAX;
+constexpr uint32_t kNone = UINT32_MAX;
 
 /// One heap. Segments are contiguous and sorted; the last one reaches to infinity.
 class HeapMap {
@@ -20,8 +20,8 @@ class HeapMap {
     const std::size_t end = split(placement.offset + placement.size);
     for (std::size_t i = first; i < end; ++i) {
       Segment& segment = segments_[i];
-      for (uint32_t node = segment.predecessors; node != kEnd; node = nodes_[node].next) before(nodes_[node].predecessor);
-      nodes_.push_back({{placement.resource, false}, replaces ? kEnd : segment.predecessors});
+      for (uint32_t node = segment.predecessors; node != kNone; node = nodes_[node].next) before(nodes_[node].predecessor);
+      nodes_.push_back({{placement.resource, false}, replaces ? kNone : segment.predecessors});
       segment.predecessors = static_cast<uint32_t>(nodes_.size() - 1);
     }
     if (replaces)
@@ -53,7 +53,7 @@ class HeapMap {
     return index + 1;
   }
 
-  std::vector<Segment> segments_{{0, kEnd}};
+  std::vector<Segment> segments_{{0, kNone}};
   std::vector<Node> nodes_;
 };
 

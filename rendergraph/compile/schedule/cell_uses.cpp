@@ -59,8 +59,8 @@ std::optional<CellUse> useAfterGraph(const DeclaredResource& resource, std::span
     after.stages |= kChainStage;
   }
   return CellUse{.step = steps,
-                 .pass = AccessPoint::kOutside,
-                 .lastPass = AccessPoint::kOutside,
+                 .pass = kNone,
+                 .lastPass = kNone,
                  .layout = after.layout,
                  .stages = after.stages,
                  .access = after.access,

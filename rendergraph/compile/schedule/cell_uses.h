@@ -23,7 +23,7 @@ class Cells;
 struct CellUse {
   uint32_t step = 0;                          ///< First step of the rendering, or of the pass.
   uint32_t pass = 0;                          ///< The first that touches the cell.
-  uint32_t lastPass = AccessPoint::kOutside;  ///< The last one.
+  uint32_t lastPass = kNone;  ///< The last one.
   VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
   VkPipelineStageFlags2 stages = 0;
   VkAccessFlags2 access = 0;

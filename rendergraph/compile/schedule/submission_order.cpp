@@ -24,7 +24,7 @@ void SubmissionOrder::update() {
     }
   }
   clocks_.assign(queueOf_.size() * queues_, 0);
-  hostDone_.assign(count, kNever);
+  hostDone_.assign(count, kNone);
   const auto include = [&](Moment later, Moment earlier) {
     for (uint32_t queue = 0; queue < queues_; ++queue) {
       uint32_t& clock = clocks_[static_cast<std::size_t>(later) * queues_ + queue];
@@ -32,15 +32,15 @@ void SubmissionOrder::update() {
     }
   };
   clocks_[0] = 1;
-  std::vector<Moment> last(queues_, kNever);
+  std::vector<Moment> last(queues_, kNone);
   last[0] = 0;
-  Moment host = kNever;
+  Moment host = kNone;
   for (Moment moment = 1; moment < queueOf_.size(); ++moment) {
     const uint32_t i = (moment - 1) % count;
     const PlannedSubmission& submission = plan_.submissions[i];
     clocks_[static_cast<std::size_t>(moment) * queues_ + submission.queue] = moment + 1;
-    if (last[submission.queue] != kNever) include(moment, last[submission.queue]);
-    if (host != kNever) include(moment, host);
+    if (last[submission.queue] != kNone) include(moment, last[submission.queue]);
+    if (host != kNone) include(moment, host);
     for (const SubmissionWait& wait : plan_.waitsOf(submission)) {
       if (wait.stages != 0) include(moment, moment - i + wait.submission);
     }

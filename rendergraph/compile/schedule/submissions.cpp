@@ -18,10 +18,10 @@ namespace lensgraph::rendergraph {
 namespace {
 
 /// What the host did before, or the frame before: it ends with queue 0.
-constexpr uint32_t kBefore = kNone;
+constexpr uint32_t kNone = kNone;
 
 struct Dependency {
-  uint32_t from = kBefore;  // Step.
+  uint32_t from = kNone;  // Step.
   uint32_t to = 0;          // Step.
   VkPipelineStageFlags2 stages = 0;
 };
@@ -59,7 +59,7 @@ class Dependencies {
   /// Sorted by the step that waits, the latest cause first.
   std::vector<Dependency> sorted() && {
     std::sort(all_.begin(), all_.end(), [](const Dependency& a, const Dependency& b) {
-      const uint32_t fromA = a.from + 1, fromB = b.from + 1;  // kBefore becomes 0.
+      const uint32_t fromA = a.from + 1, fromB = b.from + 1;  // kNone becomes 0.
       return a.to != b.to ? a.to < b.to : fromA > fromB;
     });
     return std::move(all_);
@@ -75,7 +75,7 @@ class Dependencies {
   }
   void addFromBefore(const Epoch& epoch) {
     forFirstOnEachQueue(epoch, [&](const CellUse& use) {
-      if (use.queue != 0) all_.push_back({kBefore, use.step, semaphoreStages(partOf(epoch, use.queue).stages)});
+      if (use.queue != 0) all_.push_back({kNone, use.step, semaphoreStages(partOf(epoch, use.queue).stages)});
     });
   }
   void connect(const Epoch& before, const Epoch& after) {
@@ -123,7 +123,7 @@ class Dependencies {
   std::vector<CellUse> uses_;  // Of the current cell.
 };
 
-/// Vector clocks. A time is a number of steps of a queue's future: step + 2, where 1 stands for kBefore.
+/// Vector clocks. A time is a number of steps of a queue's future: step + 2, where 1 stands for kNone.
 class Clocks {
  public:
   explicit Clocks(const Schedule& schedule)
@@ -131,13 +131,13 @@ class Clocks {
         queues_(schedule.queues),
         known_(queues_ * queues_, Known{}),
         atStep_(static_cast<std::size_t>(schedule.steps()) * queues_, 0) {
-    known_[0].time = timeOf(kBefore);  // Queue 0 itself comes after it.
+    known_[0].time = timeOf(kNone);  // Queue 0 itself comes after it.
   }
 
   /// One past the last step stands for what follows the graph, on queue 0.
   void wait(const Dependency& dependency) {
     const uint32_t queue = dependency.to < schedule_.steps() ? schedule_.queue[dependency.to] : 0;
-    const uint32_t source = dependency.from == kBefore ? 0 : schedule_.queue[dependency.from];
+    const uint32_t source = dependency.from == kNone ? 0 : schedule_.queue[dependency.from];
     Known& known = knownBy(queue, source);
     if (known.time >= timeOf(dependency.from)) {
       waits[known.wait].stages |= dependency.stages;
@@ -146,7 +146,7 @@ class Clocks {
     const auto wait = static_cast<uint32_t>(waits.size());
     waits.push_back({dependency.from, dependency.to, dependency.stages});
     known = {timeOf(dependency.from), wait};
-    if (dependency.from == kBefore) return;
+    if (dependency.from == kNone) return;
     for (uint32_t other = 0; other < queues_; ++other) {
       const uint32_t time = atStep_[static_cast<std::size_t>(dependency.from) * queues_ + other];
       if (other != queue && knownBy(queue, other).time < time) knownBy(queue, other) = {time, wait};
@@ -182,7 +182,7 @@ class Clocks {
     uint32_t time = 0;
     uint32_t wait = 0;  // That told it.
   };
-  static uint32_t timeOf(uint32_t step) { return step == kBefore ? 1 : step + 2; }
+  static uint32_t timeOf(uint32_t step) { return step == kNone ? 1 : step + 2; }
   Known& knownBy(uint32_t queue, uint32_t other) { return known_[queue * queues_ + other]; }
 
   const Schedule& schedule_;
@@ -210,7 +210,7 @@ class Cutter {
       : declaration_(declaration), schedule_(schedule), waits_(waits), open_(schedule.queues, kNone) {
     signals_.assign(schedule.steps(), 0);
     for (const Wait& wait : waits) {
-      if (wait.from != kBefore) signals_[schedule.unitLast[wait.from]] = 1;
+      if (wait.from != kNone) signals_[schedule.unitLast[wait.from]] = 1;
     }
   }
 
@@ -246,7 +246,7 @@ class Cutter {
     if (schedule_.severalQueues && result_.list.size() == 1) open_[queue] = kNone;
   }
   void addWait(uint32_t submission, const Wait& wait) {
-    const uint32_t source = wait.from == kBefore ? 0 : result_.of[wait.from];
+    const uint32_t source = wait.from == kNone ? 0 : result_.of[wait.from];
     waitsOf_[submission].push_back({.submission = source, .stages = wait.stages});
   }
   void collect(std::vector<uint32_t>& stepsInOrder) {

@@ -64,7 +64,7 @@ class BarrierBatcher {
   void gather() {
     std::vector<uint32_t> byStep;
     for (uint32_t i = 0; i < found_.size(); ++i) {
-      if (found_[i].submission == PendingBarrier::kNowhere && (eventOf_.empty() || eventOf_[i] == kNone)) {
+      if (found_[i].submission == kNone && (eventOf_.empty() || eventOf_[i] == kNone)) {
         byStep.push_back(i);
       }
     }
@@ -81,7 +81,7 @@ class BarrierBatcher {
 
   /// Batches are numbered: before steps, at ends of submissions, then events.
   uint32_t slotFor(const PendingBarrier& found) const {
-    if (found.submission != PendingBarrier::kNowhere) return steps_ + found.submission;
+    if (found.submission != kNone) return steps_ + found.submission;
     return found.step < steps_ ? found.step : steps_ + submissions_ - 1;
   }
 
@@ -157,7 +157,7 @@ class BarrierBatcher {
 bool isSplit(const PendingBarrier& found, const CompileOptions& options, const Schedule& schedule,
              std::span<const QueueFacts> queues) {
   if (options.splitDistance == 0) return false;
-  if (found.setAfter == PendingBarrier::kNowhere || found.submission != PendingBarrier::kNowhere) return false;
+  if (found.setAfter == kNone || found.submission != kNone) return false;
   if (found.step >= schedule.steps() || found.step - found.setAfter - 1 < options.splitDistance) return false;
   constexpr VkPipelineStageFlags2 kHost = VK_PIPELINE_STAGE_2_HOST_BIT;  // Events do not know the host.
   if (((found.barrier.from.stages | found.barrier.to.stages) & kHost) != 0) return false;

@@ -131,7 +131,7 @@ bool BarrierPlanner::noteExported(const DeclaredResource& declared, std::span<co
   const VkPipelineStageFlags2 after = declared.after.stages & ~VK_PIPELINE_STAGE_2_HOST_BIT;
   // Reads on another queue go on meanwhile, unless queue 0 has to take over.
   const bool all = after == 0 && (newLayout || (uses.back().queue != 0 && (uses.back().writes || owned)));
-  scope.pass = AccessPoint::kOutside;
+  scope.pass = kNone;
   scope.stages |= all ? kChainStage : after;
   if (after != 0) scope.access |= declared.after.access & kWriteAccess;
   return all || (after != 0 && (newLayout || uses.back().writes || writesMemory(declared.after.access)));
@@ -148,7 +148,7 @@ CellState BarrierPlanner::stateAfterPredecessors(uint32_t resource, uint32_t que
     for (uint32_t other = 0; other < in_.schedule.queues; ++other) {
       const AccessPoint& scope = finalScopes_[predecessor.resource * in_.schedule.queues + other];
       if (scope.stages == 0) continue;
-      state.last.pass = predecessor.frameBefore ? AccessPoint::kOutside : scope.pass;
+      state.last.pass = predecessor.frameBefore ? kNone : scope.pass;
       state.wrote = state.wrote || scope.access != 0;
       if (other != queue || (predecessor.frameBefore && queue != 0)) {
         elsewhere = true;

@@ -31,7 +31,7 @@ BarrierTrimming::BarrierTrimming(const BarrierInputs& inputs, const Plan& plan)
 
 TimedBarrier BarrierTrimming::timed(const PendingBarrier& found) const {
   TimedBarrier result{.barrier = found.barrier, .step = found.step};
-  if (found.submission != PendingBarrier::kNowhere) {
+  if (found.submission != kNone) {
     result.queue = plan_.submissions[found.submission].queue;
     result.submission = result.scopeEnds = result.takesEffect = found.submission;
     result.step = 0;
@@ -41,7 +41,7 @@ TimedBarrier BarrierTrimming::timed(const PendingBarrier& found) const {
   result.queue = atEnd ? 0 : in_.schedule.queue[found.step];
   result.submission = atEnd ? lastSubmission_ : in_.submissions.of[found.step];
   result.scopeEnds = result.takesEffect = result.submission;
-  const uint32_t earliest = found.setAfter == PendingBarrier::kNowhere ? 0 : in_.submissions.of[found.setAfter];
+  const uint32_t earliest = found.setAfter == kNone ? 0 : in_.submissions.of[found.setAfter];
   if (isSplit(found, in_.options, in_.schedule, in_.queues)) {
     result.scopeEnds = earliest;
   } else if (in_.options.barriers == BarrierTiming::fewestBatches && found.earliest < found.step) {
@@ -62,7 +62,7 @@ void BarrierTrimming::trim(const Epoch& epoch, std::vector<PendingBarrier>& foun
   for (std::size_t i = first; i < found.size(); ++i) {
     if (barriers_[i - first].absent) continue;
     found[kept] = found[i];
-    if (!isSplit(found[i], in_.options, in_.schedule, in_.queues)) found[kept].setAfter = PendingBarrier::kNowhere;
+    if (!isSplit(found[i], in_.options, in_.schedule, in_.queues)) found[kept].setAfter = kNone;
     found[kept++].barrier = barriers_[i - first].barrier;
   }
   found.resize(kept);
@@ -82,7 +82,7 @@ void BarrierTrimming::trimEnds(std::vector<PendingBarrier>& found) const {
 }
 
 bool BarrierTrimming::isEnd(const PendingBarrier& found) const {
-  return found.step >= in_.schedule.steps() && found.submission == PendingBarrier::kNowhere;
+  return found.step >= in_.schedule.steps() && found.submission == kNone;
 }
 
 /// At which the graph's last barrier of the resource may end for the sake of the next frame only.

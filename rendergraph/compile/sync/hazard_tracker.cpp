@@ -42,7 +42,7 @@ HazardTracker::Record HazardTracker::writtenBy(const TimedBarrier& barrier) cons
 
 bool HazardTracker::settled(const Record& record, uint32_t submission) const {
   const Moment host = order_.hostDoneBefore(submission);
-  return record.settled || (host != SubmissionOrder::kNever && order_.covers(host, record.moment));
+  return record.settled || (host != kNone && order_.covers(host, record.moment));
 }
 
 void HazardTracker::noteHost(const Record& record, uint32_t submission, WaitMinimizer* needs) const {
@@ -191,7 +191,7 @@ bool HazardTracker::check(std::span<const TimedBarrier> barriers, WaitMinimizer*
 
 void HazardTracker::dropEndStages(std::span<const TimedBarrier> barriers) {
   for (Record& record : records_) {
-    if (record.endOf == UINT32_MAX || record.passed.empty()) continue;
+    if (record.endOf == kNone || record.passed.empty()) continue;
     EndStage& end = ends_[record.endOf];
     if (end.known && end.needed) continue;
     std::vector<Passed> passed;

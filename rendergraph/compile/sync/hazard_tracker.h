@@ -59,7 +59,7 @@ class HazardTracker {
 
  private:
   using Moment = SubmissionOrder::Moment;
-  static constexpr uint32_t kOnEveryQueue = UINT32_MAX;
+  static constexpr uint32_t kOnEveryQueue = ~uint32_t{0};
   /// The second scope of a barrier that had the record in its first.
   struct Passed {
     uint32_t queue = 0;
@@ -79,7 +79,7 @@ class HazardTracker {
     bool byHost = false;     // Nothing has to make it visible once the host is done.
     uint32_t available = 0;  // Queues, one bit each, on which it is.
     std::vector<Passed> passed;
-    uint32_t endOf = UINT32_MAX;  // Resource that has `passed` for the next frame's sake only.
+    uint32_t endOf = kNone;  // Resource that has `passed` for the next frame's sake only.
     bool operator==(const Record&) const = default;
   };
   struct Touch {

@@ -53,7 +53,7 @@ VkImageViewType attachmentView(const Subresources& range) {
 template <class Barrier>
 void setFamilies(std::span<const QueueFacts> queues, uint32_t from, uint32_t to, Barrier& barrier) {
   barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-  if (from == kSameQueue || to == kSameQueue || queues[from].family == queues[to].family) return;
+  if (from == kNone || to == kNone || queues[from].family == queues[to].family) return;
   barrier.srcQueueFamilyIndex = queues[from].family;
   barrier.dstQueueFamilyIndex = queues[to].family;
 }
@@ -131,7 +131,7 @@ VkRenderingAttachmentInfo StepRecorder::attachmentInfo(const PlannedAttachment& 
   info.loadOp = attachment.load;
   info.storeOp = attachment.store;
   info.clearValue = clear;
-  if (attachment.resolve == PlannedAttachment::kNoResolve) return info;
+  if (attachment.resolve == kNone) return info;
   const PlannedAttachment& target = frame_->plan->attachments[attachment.resolve];
   info.resolveMode = resolveModeOf(format);
   info.resolveImageView = frame_->viewOf(target.resource, target.range, attachmentView(target.range));

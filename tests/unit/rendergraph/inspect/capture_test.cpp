@@ -66,8 +66,8 @@ TEST_F(Captured, MemoryAndLifetimesAreThoseOfThePlan) {
   EXPECT_EQ(steps(1), std::pair(1u, 2u));
   EXPECT_EQ(steps(2), std::pair(2u, 3u)) << "seen after the frame";
   EXPECT_EQ(steps(3), std::pair(0u, 3u)) << "the host's";
-  EXPECT_EQ(steps(4).first, CapturedResource::kNowhere);
-  EXPECT_EQ(capture.resources[3].heap, CapturedResource::kNowhere);
+  EXPECT_EQ(steps(4).first, kNone);
+  EXPECT_EQ(capture.resources[3].heap, kNone);
   EXPECT_EQ(capture.resources[3].origin, "imported");
   EXPECT_EQ(capture.resources[0].contentBytes, 4u * (64 * 32 + 32 * 16 + 16 * 8));
   VkDeviceSize heaps = 0;

@@ -235,7 +235,7 @@ class Structure {
 
   void checkResolve(uint32_t step, const PlannedAttachment& attachment, const DeclaredAccess* declared) {
     if (declared == nullptr) {
-      return expectAtStep(attachment.resolve == PlannedAttachment::kNoResolve, step, "nobody asked for this resolve");
+      return expectAtStep(attachment.resolve == kNone, step, "nobody asked for this resolve");
     }
     const bool same =
         attachment.resolve < plan_.attachments.size() && isSame(plan_.attachments[attachment.resolve], declared);
@@ -276,7 +276,7 @@ class Structure {
   }
 
   bool sameResolve(const PlannedAttachment& a, const PlannedAttachment& b) const {
-    if (a.resolve == PlannedAttachment::kNoResolve || b.resolve == PlannedAttachment::kNoResolve) {
+    if (a.resolve == kNone || b.resolve == kNone) {
       return a.resolve == b.resolve;
     }
     const PlannedAttachment &x = plan_.attachments[a.resolve], &y = plan_.attachments[b.resolve];
@@ -316,7 +316,7 @@ class Structure {
     const bool host = ((barrier.from.stages | barrier.to.stages) & VK_PIPELINE_STAGE_2_HOST_BIT) != 0;
     expect(!event || !host, which + ": an event for the host");
     const bool release = barrier.reason == BarrierReason::release, acquire = barrier.reason == BarrierReason::acquire;
-    expect((release || acquire) == (barrier.fromQueue != kSameQueue && barrier.toQueue != kSameQueue),
+    expect((release || acquire) == (barrier.fromQueue != kNone && barrier.toQueue != kNone),
            which + ": its queues do not fit its reason");
     if (!findings_.empty() || (!release && !acquire)) return;
     const auto queues = static_cast<uint32_t>(device_.queues().size());

@@ -85,7 +85,7 @@ void ResourceReplay::addRestRecord(Subresource& subresource) const {
               .seen = true,
               .inherited = true,
               .available = Record::kEverywhere,
-              .pass = AccessPoint::kOutside,
+              .pass = kNone,
               .node = order_.nodeBefore(frame_),
               .time = now_};
   if (order_.frames() == 1) settle(rest, false);  // The host has waited.
@@ -101,7 +101,7 @@ void ResourceReplay::addHostRecords(Subresource& subresource) const {
   const StageMask stages = stageMask(declared_.before.stages);
   const bool write = (access & kWrites) != 0;
   const Record outside{
-      .write = write, .pass = AccessPoint::kOutside, .node = order_.nodeBefore(frame_), .time = now_, .access = access};
+      .write = write, .pass = kNone, .node = order_.nodeBefore(frame_), .time = now_, .access = access};
   for (uint32_t i = 0; i < kStageCount; ++i) {
     if ((stages >> i & 1) == 0) continue;
     Record record = outside;
@@ -408,7 +408,7 @@ void ResourceReplay::finish(Subresource& subresource) {
   for (Record& record : subresource.records) checkAgainst(record, use, at, order_.node(frame_, last));
   // Before the next frame the host's device has used it in this way. The host itself is done when it submits that.
   use.stages &= ~kHostStage;
-  if (declared_.created() && use.stages != 0) leave(subresource, use, at, AccessPoint::kOutside);
+  if (declared_.created() && use.stages != 0) leave(subresource, use, at, kNone);
 }
 
 ResourceReplay::Left ResourceReplay::remaining() {
