@@ -44,14 +44,13 @@ struct CapturedPass {
 };
 
 struct CapturedResource {
-  static constexpr uint32_t kNone = UINT32_MAX;
   std::string name;
   std::string_view origin;  ///< "created", "imported", "persistent", "history previous", "history next".
   bool isImage = true;
   VkFormat format = VK_FORMAT_UNDEFINED;  ///< Images only, as are the four below.
   uint32_t width = 0, height = 0, layers = 1, mips = 1;
   VkDeviceSize contentBytes = 0;  ///< Of all its texels, or of the buffer; without the device's padding.
-  uint32_t heap = kNone;       ///< Index in Capture::heaps; kNone: not placed by the graph.
+  uint32_t heap = kNone;          ///< Index in Capture::heaps; kNone: not placed by the graph.
   VkDeviceSize offset = 0;        ///< Bytes in the heap.
   VkDeviceSize size = 0;          ///< Bytes in the heap, as the device asks for.
   /// Steps (positions in Capture::passes) between which it is needed, inclusive; kNone: no kept pass uses it.

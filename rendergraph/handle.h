@@ -10,6 +10,9 @@
 
 namespace lensgraph::rendergraph {
 
+/// An index that names nothing: no pass, resource, step, submission or queue, as the field that holds it says.
+inline constexpr uint32_t kNone = UINT32_MAX;
+
 template <class Tag>
 struct Handle {
   uint32_t resource = UINT32_MAX;  ///< Index among the resources of the graph.

@@ -18,18 +18,17 @@
 #include <vulkan/vulkan_core.h>
 
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "rendergraph/handle.h"
 #include "rendergraph/resource.h"
 
 namespace lensgraph::rendergraph {
 
 /// A use of a resource that a barrier waits for, or that waits for it.
 struct AccessPoint {
-  static constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
   uint32_t pass = kNone;  ///< kNone: the host before or after the graph, or the frame before this one.
   VkPipelineStageFlags2 stages = 0;
   VkAccessFlags2 access = 0;
@@ -47,9 +46,6 @@ enum class BarrierReason : uint8_t {
   acquire,  ///< Second half of it, with the same layouts.
 };
 
-/// Marks a barrier that leaves the ownership as it is.
-inline constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
-
 /// `to` covers every use that the barrier serves: a run of reads by several passes waits once, before the first.
 struct ImageBarrier {
   uint32_t resource = 0;
@@ -57,7 +53,7 @@ struct ImageBarrier {
   AccessPoint from = {}, to = {};
   VkImageLayout oldLayout = VK_IMAGE_LAYOUT_UNDEFINED;
   VkImageLayout newLayout = VK_IMAGE_LAYOUT_UNDEFINED;
-  uint32_t fromQueue = kNone;  ///< Release and acquire: index among the device's queues.
+  uint32_t fromQueue = kNone;  ///< Release and acquire: index among the device's queues. kNone: same owner as before.
   uint32_t toQueue = kNone;
   BarrierReason reason = BarrierReason::layout;
   bool operator==(const ImageBarrier&) const = default;
@@ -93,7 +89,6 @@ struct PlannedEvent {
 };
 
 struct PlannedAttachment {
-  static constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
   uint32_t resource = 0;
   Subresources range;
   VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;

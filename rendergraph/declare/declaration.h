@@ -21,8 +21,6 @@
 
 namespace lensgraph::rendergraph {
 
-inline constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
-
 /// Who owns a resource and how long it lives.
 enum class Origin : uint8_t {
   created,          ///< Of the graph, within the frame.

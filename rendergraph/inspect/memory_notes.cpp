@@ -54,9 +54,9 @@ std::string noteOn(const Declaration& declaration, const Plan& plan, const Place
 std::vector<std::string> memoryNotes(const Declaration& declaration, const Plan& plan) {
   std::vector<std::string> notes;
   for (const DeclaredResource& resource : declaration.resources) {
-    notes.emplace_back(resource.imported()   ? "the host's own memory"
+    notes.emplace_back(resource.imported()     ? "the host's own memory"
                        : resource.persistent() ? "kept across frames, so its memory is its own"
-                                             : "no living pass uses it");
+                                               : "no living pass uses it");
   }
   for (const Placement& placement : plan.placements) {
     notes[placement.resource] = noteOn(declaration, plan, placement);

@@ -9,9 +9,10 @@ engine::Scene loadShotScene(const Shot& shot, std::vector<std::string>& warnings
   engine::Scene scene;
   const engine::GltfOptions options{.loadShadingTextures = shot.shading == Shading::lit};
   for (const auto& part : shot.scene) {
-    const engine::FileTransform placement{.translation = part.translation,
-                                      .rotation = {part.rotation.x, part.rotation.y, part.rotation.z, part.rotation.w},
-                                      .scale = part.scale};
+    const engine::FileTransform placement{
+        .translation = part.translation,
+        .rotation = {part.rotation.x, part.rotation.y, part.rotation.z, part.rotation.w},
+        .scale = part.scale};
     for (auto& warning : engine::appendGltf(scene, part.path, engine::worldFromFileTransform(placement), options)) {
       warnings.push_back(std::move(warning));
     }

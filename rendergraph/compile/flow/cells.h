@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "rendergraph/handle.h"
 #include "rendergraph/resource.h"
 
 namespace lensgraph::rendergraph {
@@ -48,8 +49,6 @@ class Cells {
   Subresources rangeOf(uint32_t resource, uint32_t cell) const;
 
  private:
-  static constexpr uint32_t kNone = UINT32_MAX;
-
   /// Parts of one axis: part i goes from bounds_[first + i] to bounds_[first + i + 1].
   struct Axis {
     uint32_t first = 0, parts = 1;

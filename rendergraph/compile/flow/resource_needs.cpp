@@ -5,7 +5,7 @@
 namespace lensgraph::rendergraph {
 
 std::vector<ResourceNeed> findResourceNeeds(const Declaration& declaration, std::span<const uint8_t> alive,
-                                  const DeviceFacts& device) {
+                                            const DeviceFacts& device) {
   std::vector<ResourceNeed> needs(declaration.resources.size());
   for (const DeclaredAccess& access : declaration.accesses) {
     if (!alive[access.pass]) continue;
@@ -29,7 +29,7 @@ std::vector<ResourceNeed> findResourceNeeds(const Declaration& declaration, std:
     }
     if (!resource.created()) continue;
     need.requirements = resource.isImage ? device.requirements(resource.image, need.image)
-                                        : device.requirements(resource.buffer, need.buffer);
+                                         : device.requirements(resource.buffer, need.buffer);
   }
   return needs;
 }

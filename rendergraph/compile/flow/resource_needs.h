@@ -20,6 +20,6 @@ struct ResourceNeed {
 
 /// By resource.
 std::vector<ResourceNeed> findResourceNeeds(const Declaration& declaration, std::span<const uint8_t> alive,
-                                  const DeviceFacts& device);
+                                            const DeviceFacts& device);
 
 }  // namespace lensgraph::rendergraph

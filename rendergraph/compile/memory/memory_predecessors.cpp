@@ -8,8 +8,6 @@ namespace lensgraph::rendergraph {
 
 namespace {
 
-constexpr uint32_t kNone = UINT32_MAX;
-
 /// One heap. Segments are contiguous and sorted; the last one reaches to infinity.
 class HeapMap {
  public:
@@ -20,7 +18,8 @@ class HeapMap {
     const std::size_t end = split(placement.offset + placement.size);
     for (std::size_t i = first; i < end; ++i) {
       Segment& segment = segments_[i];
-      for (uint32_t node = segment.predecessors; node != kNone; node = nodes_[node].next) before(nodes_[node].predecessor);
+      for (uint32_t node = segment.predecessors; node != kNone; node = nodes_[node].next)
+        before(nodes_[node].predecessor);
       nodes_.push_back({{placement.resource, false}, replaces ? kNone : segment.predecessors});
       segment.predecessors = static_cast<uint32_t>(nodes_.size() - 1);
     }
@@ -59,8 +58,8 @@ class HeapMap {
 
 }  // namespace
 
-MemoryPredecessors::MemoryPredecessors(std::span<const Placement> placements, std::size_t resources, std::span<const uint8_t> fullyUsed,
-                     bool overlappingFrames)
+MemoryPredecessors::MemoryPredecessors(std::span<const Placement> placements, std::size_t resources,
+                                       std::span<const uint8_t> fullyUsed, bool overlappingFrames)
     : starts_(resources, 0), counts_(resources, 0) {
   // By first step, then by resource: placements are sorted by resource already, so counting keeps that.
   uint32_t steps = 0, heaps = 0;
@@ -80,9 +79,11 @@ MemoryPredecessors::MemoryPredecessors(std::span<const Placement> placements, st
     for (uint32_t index : byTime) {
       const Placement& placement = placements[index];
       const auto start = static_cast<uint32_t>(all_.size());
-      maps[placement.heap].occupy(placement, fullyUsed[placement.resource] != 0, [&](const MemoryPredecessor& predecessor) {
-        if (std::find(all_.begin() + start, all_.end(), predecessor) == all_.end()) all_.push_back(predecessor);
-      });
+      maps[placement.heap].occupy(placement, fullyUsed[placement.resource] != 0,
+                                  [&](const MemoryPredecessor& predecessor) {
+                                    if (std::find(all_.begin() + start, all_.end(), predecessor) == all_.end())
+                                      all_.push_back(predecessor);
+                                  });
       starts_[placement.resource] = start;
       counts_[placement.resource] = static_cast<uint32_t>(all_.size()) - start;
     }

@@ -22,7 +22,7 @@ class MemoryPredecessors {
   /// `fullyUsed`: by resource, whether every part of it is used, so that waiting for it is waiting for everybody
   /// before it as well. `overlappingFrames`: as in CompileOptions.
   MemoryPredecessors(std::span<const Placement> placements, std::size_t resources, std::span<const uint8_t> fullyUsed,
-            bool overlappingFrames);
+                     bool overlappingFrames);
   std::span<const MemoryPredecessor> before(uint32_t resource) const {
     return {all_.data() + starts_[resource], all_.data() + starts_[resource] + counts_[resource]};
   }

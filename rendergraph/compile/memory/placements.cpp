@@ -63,10 +63,10 @@ class Placer {
     const bool concurrent = !sharing_.empty() && sharing_[index] == Sharing::concurrent;
     if (resource.persistent()) {
       plan_.persistent.push_back({.resource = index,
-                                .imageUsage = use.image,
-                                .bufferUsage = use.buffer,
-                                .restLayout = restStateOf(resource).layout,
-                                .concurrent = concurrent});
+                                  .imageUsage = use.image,
+                                  .bufferUsage = use.buffer,
+                                  .restLayout = restStateOf(resource).layout,
+                                  .concurrent = concurrent});
       return;
     }
     placementOf_[index] = static_cast<uint32_t>(plan_.placements.size());
@@ -166,8 +166,9 @@ class Placer {
 
 }  // namespace
 
-void placeResources(const Declaration& declaration, std::span<const ResourceNeed> uses, std::span<const Sharing> sharing,
-                    const Schedule& schedule, const Submissions& submissions, Aliasing aliasing, Plan& plan) {
+void placeResources(const Declaration& declaration, std::span<const ResourceNeed> uses,
+                    std::span<const Sharing> sharing, const Schedule& schedule, const Submissions& submissions,
+                    Aliasing aliasing, Plan& plan) {
   Placer placer(declaration, uses, sharing, schedule, submissions, plan);
   placer.addAll();
   placer.pack(aliasing);

@@ -14,7 +14,8 @@ struct Schedule;
 struct Submissions;
 
 /// Fills Plan::placements, heaps, persistent and memory. `sharing` is empty on one queue.
-void placeResources(const Declaration& declaration, std::span<const ResourceNeed> uses, std::span<const Sharing> sharing,
-                    const Schedule& schedule, const Submissions& submissions, Aliasing aliasing, Plan& plan);
+void placeResources(const Declaration& declaration, std::span<const ResourceNeed> uses,
+                    std::span<const Sharing> sharing, const Schedule& schedule, const Submissions& submissions,
+                    Aliasing aliasing, Plan& plan);
 
 }  // namespace lensgraph::rendergraph

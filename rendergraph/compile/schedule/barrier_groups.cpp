@@ -60,12 +60,12 @@ class GroupScheduler {
     Grouping result{.groupOf = std::vector<uint32_t>(passes_, 0)};
     ready_.reset();
     bytes_.reset();
-    ready_.clear();
+    candidates_.clear();
     for (uint32_t pass : order_) {
-      if (ready_.ready(pass)) ready_.emplace_back(priorities[pass], ~pass);
+      if (ready_.ready(pass)) candidates_.emplace_back(priorities[pass], ~pass);
     }
-    std::make_heap(ready_.begin(), ready_.end());
-    for (; !ready_.empty(); ++result.groups) {
+    std::make_heap(candidates_.begin(), candidates_.end());
+    for (; !candidates_.empty(); ++result.groups) {
       fillGroup(budget);
       result.peak = std::max(result.peak, bytes_.live());
       for (uint32_t pass : members_) {
@@ -89,17 +89,17 @@ class GroupScheduler {
   static constexpr std::size_t kPatience = 64;
 
   void push(Candidate candidate) {
-    ready_.push_back(candidate);
-    std::push_heap(ready_.begin(), ready_.end());
+    candidates_.push_back(candidate);
+    std::push_heap(candidates_.begin(), candidates_.end());
   }
 
   void fillGroup(int64_t budget) {
     members_.clear();
     passedOver_.clear();
-    while (!ready_.empty() && passedOver_.size() < kPatience) {
-      std::pop_heap(ready_.begin(), ready_.end());
-      const Candidate candidate = ready_.back();
-      ready_.pop_back();
+    while (!candidates_.empty() && passedOver_.size() < kPatience) {
+      std::pop_heap(candidates_.begin(), candidates_.end());
+      const Candidate candidate = candidates_.back();
+      candidates_.pop_back();
       const uint32_t pass = ~candidate.second;
       if (bytes_.live() + bytes_.added(pass) > budget) {
         passedOver_.push_back(candidate);
@@ -132,7 +132,7 @@ class GroupScheduler {
   Direction direction_;
   ReadyPasses ready_;
   LiveBytes bytes_;
-  std::vector<Candidate> ready_, passedOver_;
+  std::vector<Candidate> candidates_, passedOver_;
   std::vector<uint32_t> members_;
 };
 

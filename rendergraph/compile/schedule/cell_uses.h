@@ -21,8 +21,8 @@ class Cells;
 
 /// One use of a cell: all accesses to it of one pass, or of the passes that share one rendering.
 struct CellUse {
-  uint32_t step = 0;                          ///< First step of the rendering, or of the pass.
-  uint32_t pass = 0;                          ///< The first that touches the cell.
+  uint32_t step = 0;          ///< First step of the rendering, or of the pass.
+  uint32_t pass = 0;          ///< The first that touches the cell.
   uint32_t lastPass = kNone;  ///< The last one.
   VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
   VkPipelineStageFlags2 stages = 0;

@@ -23,17 +23,17 @@ std::vector<uint32_t> byPriority(std::span<const uint8_t> alive, std::span<const
   const auto passes = static_cast<uint32_t>(alive.size());
   ReadyPasses ready(edges, passes);
   using Entry = std::pair<uint32_t, uint32_t>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> ready;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> candidates;
   for (uint32_t pass = 0; pass < passes; ++pass) {
-    if (alive[pass] && ready.ready(pass)) ready.push({key(pass), pass});
+    if (alive[pass] && ready.ready(pass)) candidates.push({key(pass), pass});
   }
   std::vector<uint32_t> order;
   order.reserve(passes);
-  while (!ready.empty()) {
-    const uint32_t pass = ready.top().second;
-    ready.pop();
+  while (!candidates.empty()) {
+    const uint32_t pass = candidates.top().second;
+    candidates.pop();
     order.push_back(pass);
-    ready.finish(pass, [&](uint32_t next) { ready.push({key(next), next}); });
+    ready.finish(pass, [&](uint32_t next) { candidates.push({key(next), next}); });
   }
   return order;
 }
@@ -75,9 +75,9 @@ class GreedyMemory {
 
   std::vector<uint32_t> order() {
     std::vector<uint32_t> order;
-    while (!ready_.empty()) {
-      const uint32_t pass = ready_.top().pass;
-      ready_.pop();
+    while (!candidates_.empty()) {
+      const uint32_t pass = candidates_.top().pass;
+      candidates_.pop();
       if (done_[pass]) continue;
       done_[pass] = 1;
       order.push_back(pass);
@@ -98,7 +98,7 @@ class GreedyMemory {
   // once more; the dearer entry comes up when the pass is done, and is dropped.
   void push(uint32_t pass) {
     const int64_t added = bytes_.added(pass);
-    ready_.push({added - bytes_.freed(pass), added, pass});
+    candidates_.push({added - bytes_.freed(pass), added, pass});
   }
   void run(uint32_t pass) {
     changed_.clear();
@@ -119,7 +119,7 @@ class GreedyMemory {
   LiveBytes bytes_;
   std::vector<uint8_t> done_;
   std::vector<uint32_t> changed_;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> ready_;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> candidates_;
 };
 
 PassOrder inGroups(const MemoryUse& use, std::span<const Edge> edges, std::span<const uint32_t> declared,

@@ -2,7 +2,8 @@
 
 namespace lensgraph::rendergraph {
 
-SubmissionOrder::SubmissionOrder(const Plan& plan, uint32_t queues, std::vector<uint8_t> endsWithHost, bool overlappingFrames)
+SubmissionOrder::SubmissionOrder(const Plan& plan, uint32_t queues, std::vector<uint8_t> endsWithHost,
+                                 bool overlappingFrames)
     : plan_(plan),
       queues_(queues),
       endsWithHost_(std::move(endsWithHost)),

@@ -15,7 +15,6 @@ namespace lensgraph::rendergraph {
 class SubmissionOrder {
  public:
   using Moment = uint32_t;
-  static constexpr Moment kNone = UINT32_MAX;
 
   /// `endsWithHost`: by submission, whether its last step is a host pass.
   SubmissionOrder(const Plan& plan, uint32_t queues, std::vector<uint8_t> endsWithHost, bool overlappingFrames);

@@ -17,12 +17,9 @@ namespace lensgraph::rendergraph {
 
 namespace {
 
-/// What the host did before, or the frame before: it ends with queue 0.
-constexpr uint32_t kNone = kNone;
-
 struct Dependency {
-  uint32_t from = kNone;  // Step.
-  uint32_t to = 0;          // Step.
+  uint32_t from = kNone;  // Step; kNone: what the host or the previous frame did, which ends with queue 0.
+  uint32_t to = 0;        // Step.
   VkPipelineStageFlags2 stages = 0;
 };
 

@@ -16,7 +16,7 @@ namespace {
 class BarrierBatcher {
  public:
   BarrierBatcher(const Declaration& declaration, const CompileOptions& options, const Schedule& schedule,
-          std::span<const QueueFacts> queues, std::vector<PendingBarrier>& found, Plan& plan)
+                 std::span<const QueueFacts> queues, std::vector<PendingBarrier>& found, Plan& plan)
       : declaration_(declaration),
         options_(options),
         schedule_(schedule),

@@ -17,12 +17,11 @@ struct Schedule;
 
 /// A barrier and the steps before which it may stand.
 struct PendingBarrier {
-  static constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
-  uint32_t step = 0;               ///< The latest: that of the use that it protects; the number of steps: at the end.
-  uint32_t earliest = 0;           ///< After the last use that it waits for.
+  uint32_t step = 0;            ///< The latest: that of the use that it protects; the number of steps: at the end.
+  uint32_t earliest = 0;        ///< After the last use that it waits for.
   uint32_t setAfter = kNone;    ///< Step of that use, when it is in the frame and on the same queue.
   uint32_t submission = kNone;  ///< At the end of this submission, and nowhere else.
-  ImageBarrier barrier;            ///< Of a buffer too, then without range and layouts.
+  ImageBarrier barrier;         ///< Of a buffer too, then without range and layouts.
 };
 
 /// Whether the two sides of a barrier become an event's set and wait.

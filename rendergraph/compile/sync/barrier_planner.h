@@ -74,7 +74,7 @@ class BarrierPlanner {
   std::vector<uint32_t> finalSteps_;
   std::vector<uint8_t> changedAtEnd_;  // By resource: exported in another layout or from another queue.
   MemoryPredecessors predecessors_;
-  std::vector<CellUse> uses_;        // Of the current cell.
+  std::vector<CellUse> uses_;          // Of the current cell.
   std::vector<PendingBarrier> found_;  // Of the current resource.
   std::vector<PendingBarrier> all_;
   std::optional<BarrierTrimming> trimming_;

@@ -95,7 +95,7 @@ HazardTracker::Reach HazardTracker::available(const Record& record, uint32_t que
 
 /// Whether the touch comes after the record, and when it names an access, whether the record is visible to it.
 HazardTracker::Reach HazardTracker::reached(const Record& record, const Use& use, const Touch& touch,
-                                        std::span<const TimedBarrier> barriers) {
+                                            std::span<const TimedBarrier> barriers) {
   through_.clear();
   if ((touch.access == 0 || record.byHost) && settled(record, use.submission)) return Reach::always;
   if (touch.access == 0 && touch.stages == kHost && order_.covers(order_.momentOf(use.submission), record.moment)) {
@@ -130,7 +130,7 @@ bool HazardTracker::note(Reach reach, const Record& record, WaitMinimizer* needs
 }
 
 bool HazardTracker::respects(const Use& use, const Record& record, std::span<const TimedBarrier> barriers,
-                           WaitMinimizer* needs) {
+                             WaitMinimizer* needs) {
   if (!record.write && !use.writes) return true;
   for (uint32_t i = use.firstTouch; i < use.endTouch; ++i) {
     Touch touch{touches_[i].stages, 0};
@@ -196,7 +196,7 @@ void HazardTracker::dropEndStages(std::span<const TimedBarrier> barriers) {
     if (end.known && end.needed) continue;
     std::vector<Passed> passed;
     std::swap(passed, record.passed);
-    if (respected(barriers)) {
+    if (isSynchronized(barriers)) {
       end.dropped = true;
     } else {
       std::swap(passed, record.passed);

@@ -11,7 +11,7 @@ namespace lensgraph::rendergraph {
 
 void ExportTable::take(const Declaration& declaration, const ResourceTable& table) {
   serial = declaration.serial;
-  bound = table;
+  objects = table;
   exported.clear();
   sizes.clear();
   for (const DeclaredResource& resource : declaration.resources) {

@@ -29,7 +29,7 @@ struct RecordingContext {
   const Plan* plan = nullptr;
   ResourceTable objects;
   std::span<const UniqueEvent> events;  ///< Of Plan::events.
-  Capture* capture = nullptr;          ///< Each step writes its own times.
+  Capture* capture = nullptr;           ///< Each step writes its own times.
   Clock::time_point start;
   VkQueryPool timestamps = VK_NULL_HANDLE;  ///< Null: no times are taken inside submissions.
   uint32_t timestampSteps = 0;              ///< Steps that have room in the pool.

@@ -22,7 +22,8 @@ bool written(const Declaration& declaration, const Plan& plan, uint32_t resource
 
 }  // namespace
 
-PersistentStore::Entry& PersistentStore::entryFor(const DeclaredResource& resource, const PersistentResource& persistent) {
+PersistentStore::Entry& PersistentStore::entryFor(const DeclaredResource& resource,
+                                                  const PersistentResource& persistent) {
   auto found = entries_.find(resource.key);
   if (found == entries_.end()) found = entries_.emplace(std::string(resource.key), Entry{}).first;
   Entry& entry = found->second;
@@ -62,8 +63,8 @@ void PersistentStore::make(const DeclaredResource& resource, const Entry& entry,
       made.heap = UniqueHeap(backend_, both.heap);
       made.image = UniqueImage(backend_, both.image);
     } else {
-      made.heap =
-          UniqueHeap(backend_, backend_.createHeap(needs.size, needs.memoryTypeBits, MemoryKind::device, resource.name));
+      made.heap = UniqueHeap(backend_,
+                             backend_.createHeap(needs.size, needs.memoryTypeBits, MemoryKind::device, resource.name));
       made.image = UniqueImage(backend_, backend_.createImage(request, made.heap.get(), 0));
     }
   } else {
@@ -108,7 +109,7 @@ void PersistentStore::prepare(const Declaration& declaration, const Plan& plan, 
 }
 
 void PersistentStore::barrier(const CommandStream& commands, const Current& current, VkImageLayout from,
-                            VkImageLayout to) {
+                              VkImageLayout to) {
   // Rare (first frame, change of plan), so the widest scopes are good enough.
   VkMemoryBarrier2 memory{};
   memory.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;

@@ -29,7 +29,7 @@ class HandMade {
       rewrite(state_.plans.add(hash, compile(graph.declaration(), options, NominalDevice())).plan);
     }
     state_.prepare(graph.declaration(), options, slot, Timing::none);
-    Frame(state_, slot, Timing::none, threads).execute();
+    FrameRunner(state_, slot, Timing::none, threads).execute();
     state_.closeSlot(slot, FrameInFlight::State::submitted);
   }
   ExecutorState& state() { return state_; }

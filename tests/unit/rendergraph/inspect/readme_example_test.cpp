@@ -74,7 +74,6 @@ std::string readme() {
 }
 
 }  // namespace
-}  // namespace lensgraph
 
 TEST(ReadmeExample, RunsThreePassesAndCompilesOnce) {
   FakeBackend backend;
@@ -99,3 +98,5 @@ TEST(ReadmeExample, IsShownAsItStandsHere) {
   EXPECT_NE(readme().find("```cpp\n" + example + "```\n"), std::string::npos)
       << "rendergraph/README.md must show the example exactly as it stands in " << __FILE__;
 }
+
+}  // namespace lensgraph
