@@ -16,7 +16,7 @@
 #include <string_view>
 
 #include "rendergraph/command_stream.h"
-#include "rendergraph/compiler.h"
+#include "rendergraph/device_facts.h"
 #include "rendergraph/program.h"
 #include "rendergraph/resource.h"
 

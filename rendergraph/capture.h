@@ -11,9 +11,9 @@
 #include <string_view>
 #include <vector>
 
-#include "rendergraph/declare/access_table.h"
-#include "rendergraph/pass.h"
+#include "rendergraph/pass_kind.h"
 #include "rendergraph/plan.h"
+#include "rendergraph/usage.h"
 
 namespace lensgraph::rendergraph {
 

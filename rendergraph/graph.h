@@ -1,26 +1,22 @@
 // The declaration of a frame: resources, passes, what enters and what leaves.
 //
-//   rendergraph::Graph graph;
+//   Graph graph;
 //   Image color = graph.importImage("scene color", desc, {.image = ..., .before = ..., .after = ...});
 //   Image half = graph.createImage("half", {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .width = w / 2, .height = h / 2});
 //   Pass down = graph.addPass("downsample", PassKind::compute);
 //   down.sample(color);
 //   half = down.write(half, Usage::storage);
 //   down.record([=](PassContext& context) { context.dispatch({...}); });
-//   graph.exportImage(half, kSampledByFragment);
+//   graph.exportImage(half, {.stages = ..., .access = ..., .layout = ...});
 //   executor.execute(graph);
 //
 // A Graph is pure declaration: it makes no Vulkan calls and may be built on any thread (one thread at a time).
 // Nothing is checked against the device until compile(). Several graphs may be alive at once.
 #pragma once
 
-#include <cstddef>
 #include <memory>
-#include <new>
 #include <source_location>
 #include <string_view>
-#include <type_traits>
-#include <utility>
 
 #include "rendergraph/handle.h"
 #include "rendergraph/pass.h"
@@ -28,8 +24,8 @@
 
 namespace lensgraph::rendergraph {
 
-struct Declaration;  // declaration.h: the plain data that compile() reads.
-class ImageTaps;     // image_tap.h
+struct Declaration;  // declare/declaration.h: the plain data that compile() reads.
+class DeclarationObserver;
 
 /// Last frame's and this frame's content of one image that lives across frames.
 struct History {
@@ -77,11 +73,12 @@ class Graph {
 
   Pass addPass(std::string_view name, PassKind kind, Location where = Location::current());
 
-  /// Copies of passes' outputs for the host to look at, see image_tap.h. From the next declared pass on, over reset(),
-  /// until it is given others; null: none. `taps` lives until then.
-  void setTaps(ImageTaps* taps) { taps_ = taps; }
-  /// Says that the declaration is complete, so that the last passes' copies are added; exports do so too.
-  void finishTaps();
+  /// Somebody who is told of every pass once it is declared and may add passes of its own, such as ImageTaps. From the
+  /// next declared pass on, over reset(), until another one is set; null (default): nobody. The observer lives until
+  /// then.
+  void observe(DeclarationObserver* observer) { observer_ = observer; }
+  /// Tells the observer that the declaration is complete; without an observer it does nothing.
+  void finish();
 
   const ImageDesc& desc(Image image) const;
   const BufferDesc& desc(Buffer buffer) const;
@@ -89,25 +86,8 @@ class Graph {
   const Declaration& declaration() const { return *declaration_; }
 
  private:
-  friend class Pass;
-  using Recorder = void (*)(void* recording, PassContext& context);
-  using Destroyer = void (*)(void* recording);
-  /// Memory for a recording, and where to hang it.
-  void* allocateRecording(std::size_t size, std::size_t alignment);
-  void setRecording(uint32_t pass, void* recording, Recorder recorder, Destroyer destroyer);
-
   std::unique_ptr<Declaration> declaration_;
-  ImageTaps* taps_ = nullptr;
+  DeclarationObserver* observer_ = nullptr;
 };
-
-template <class Recording>
-void Pass::record(Recording recording) {
-  void* memory = graph_->allocateRecording(sizeof(Recording), alignof(Recording));
-  new (memory) Recording(std::move(recording));
-  graph_->setRecording(
-      index_, memory, [](void* self, PassContext& context) { (*static_cast<Recording*>(self))(context); },
-      std::is_trivially_destructible_v<Recording> ? nullptr
-                                                  : +[](void* self) { static_cast<Recording*>(self)->~Recording(); });
-}
 
 }  // namespace lensgraph::rendergraph

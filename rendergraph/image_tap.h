@@ -2,9 +2,9 @@
 //
 //   ImageTaps taps;
 //   taps.add({.pass = "bloom.down", .resource = "bloom.half", .mip = 2});
-//   graph.setTaps(&taps);                       // before declaring; stays over Graph::reset()
+//   graph.observe(&taps);                       // before declaring; stays over Graph::reset()
 //   ... declare the frame ...
-//   graph.finishTaps();
+//   graph.finish();
 //   executor.execute(graph);
 //   const TappedImage& copy = taps.images()[0];
 //   if (copy.buffer) use(executor.mapped(copy.buffer), copy.format, copy.extent);
@@ -19,12 +19,11 @@
 #include <utility>
 #include <vector>
 
+#include "rendergraph/declaration_observer.h"
 #include "rendergraph/handle.h"
 #include "rendergraph/resource.h"
 
 namespace lensgraph::rendergraph {
-
-class Graph;
 
 /// What to copy: one mip and layer of an image that a pass writes. Of several passes with the name, the first one that
 /// writes an image with that name and subresource is meant.
@@ -56,7 +55,7 @@ struct TapChoice {
 
 /// The taps of one graph; outlives its declarations. Not thread-safe. Add taps before the passes that they name.
 /// A tap that matches nothing is no error: its TappedImage stays empty. Copies throw no errors of their own.
-class ImageTaps {
+class ImageTaps final : public DeclarationObserver {
  public:
   void add(ImageTap tap) { taps_.push_back(std::move(tap)); }
   const std::vector<ImageTap>& taps() const { return taps_; }
@@ -64,12 +63,9 @@ class ImageTaps {
   const std::vector<TappedImage>& images() const { return images_; }
 
  private:
-  friend class Graph;
-  /// Nothing of a declaration has been seen.
-  void restart();
-  /// Appends the copies that belong behind the passes declared so far and not closed before; `close`: nothing more
-  /// will be declared in these passes.
-  void follow(Graph& graph, bool close);
+  void declarationReset() override;
+  /// Appends the copies that belong behind the passes declared so far.
+  void passesDeclared(Graph& graph, bool complete) override;
   void followPass(Graph& graph, uint32_t pass);
   void copy(Graph& graph, std::size_t tap, uint32_t resource);
 

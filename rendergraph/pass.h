@@ -5,36 +5,20 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <new>
 #include <source_location>
-#include <span>
-#include <string_view>
+#include <type_traits>
+#include <utility>
 
-#include "rendergraph/command_stream.h"
-#include "rendergraph/declare/access_table.h"
 #include "rendergraph/handle.h"
-#include "rendergraph/program.h"
+#include "rendergraph/pass_context.h"
+#include "rendergraph/pass_kind.h"
 #include "rendergraph/resource.h"
+#include "rendergraph/usage.h"
 
 namespace lensgraph::rendergraph {
 
-class Graph;
-class StepRecorder;
-
-enum class PassKind : uint8_t {
-  raster,  ///< Draws into attachments (dynamic rendering is begun and ended around the recording).
-  compute,
-  transfer,  ///< Copies, clears, fills.
-  host,      ///< Runs on the host between submissions.
-};
-
-/// Which queue a pass would like; a device without it uses the graphics queue.
-enum class QueuePreference : uint8_t { graphics, asyncCompute, transfer };
-
-enum class LoadOp : uint8_t {
-  clear,
-  load,      ///< Keep what is there: the access is a modify.
-  dontCare,  ///< Every texel will be written.
-};
+struct Declaration;  // declare/declaration.h: what the graph has noted so far.
 
 struct ColorAttachment {
   LoadOp load = LoadOp::clear;
@@ -46,52 +30,6 @@ struct DepthAttachment {
   LoadOp load = LoadOp::clear;
   float clear = 0.0f;  ///< 0 is infinity in reversed depth.
   Subresources range = mip(0);
-};
-
-/// What a recording may touch. Lives only during the recording call; do not keep it.
-/// Every resource given to it must have been declared by the pass, else GraphError (undeclaredAccess).
-/// When the host asks for several recording threads, recordings of different passes run at once: each may use its own
-/// context and captures freely, and must guard whatever it shares with the recordings of other passes.
-class PassContext {
- public:
-  PassContext(StepRecorder& recorder, uint32_t pass) : recorder_(recorder), pass_(pass) {}
-
-  /// For hosts that record Vulkan themselves. State that a recording sets is not restored for the next pass.
-  VkCommandBuffer commandBuffer() const { return commands().buffer; }
-  /// The same with the backend's recorder, for transient objects of the backend's own kind. Null in a host pass.
-  CommandStream commands() const;
-  VkImage image(Image image) const;
-  VkImageView view(Image image, Subresources range = {}, VkImageViewType type = VK_IMAGE_VIEW_TYPE_2D) const;
-  VkBuffer buffer(Buffer buffer) const;
-  /// Host pass: content of an upload or readback buffer that the pass declared with Usage::host.
-  std::span<std::byte> mapped(Buffer buffer) const;
-  /// Size of the image at a mip.
-  VkExtent2D extent(Image image, uint32_t mipLevel = 0) const;
-  /// Formats of this raster pass's attachments, to make pipelines for it.
-  std::span<const VkFormat> colorFormats() const;
-  VkFormat depthFormat() const;           ///< UNDEFINED without depth attachment.
-  VkSampleCountFlagBits samples() const;  ///< Of the attachments.
-
-  void dispatch(const Dispatch& dispatch);
-  void draw(const Draw& draw);
-  /// Copies the range that the pass declared as transferSource to the one declared as transferDestination. Both have
-  /// the same extents, number of mips and layers, and texel size.
-  void copyImage(Image from, Image to);
-  /// First mip and layer of the range declared as transferSource, in tightly packed rows.
-  void copyImageToBuffer(Image from, Buffer to);
-  void copyBuffer(Buffer from, Buffer to, VkDeviceSize bytes);
-  /// The first `bytes` of it, a multiple of 4; by default all.
-  void fillBuffer(Buffer to, uint32_t word, VkDeviceSize bytes = VK_WHOLE_SIZE);
-  /// Writes bytes to the start of a buffer declared as transferDestination: a multiple of 4, no more than the buffer
-  /// holds. They travel in the command buffer and are copied by the call: meant for tables of some kilobytes.
-  void updateBuffer(Buffer to, std::span<const std::byte> bytes);
-  /// Clears the range declared as transferDestination; a depth image to the value's first component.
-  void clearImage(Image to, const VkClearColorValue& value);
-
- private:
-  struct Inside;
-  StepRecorder& recorder_;
-  uint32_t pass_;
 };
 
 /// Declares one pass. Returned by Graph::addPass; a light reference that must not outlive the graph.
@@ -145,9 +83,26 @@ class Pass {
 
  private:
   friend class Graph;
-  Pass(Graph& graph, uint32_t index) : graph_(&graph), index_(index) {}
-  Graph* graph_;
+  using Recorder = void (*)(void* recording, PassContext& context);
+  using Destroyer = void (*)(void* recording);
+
+  Pass(Declaration& declaration, uint32_t index) : declaration_(&declaration), index_(index) {}
+  /// Memory for a recording, and where to hang it.
+  void* allocateRecording(std::size_t size, std::size_t alignment);
+  void setRecording(void* recording, Recorder recorder, Destroyer destroyer);
+
+  Declaration* declaration_;
   uint32_t index_;
 };
+
+template <class Recording>
+void Pass::record(Recording recording) {
+  void* memory = allocateRecording(sizeof(Recording), alignof(Recording));
+  new (memory) Recording(std::move(recording));
+  setRecording(
+      memory, [](void* self, PassContext& context) { (*static_cast<Recording*>(self))(context); },
+      std::is_trivially_destructible_v<Recording> ? nullptr
+                                                  : +[](void* self) { static_cast<Recording*>(self)->~Recording(); });
+}
 
 }  // namespace lensgraph::rendergraph

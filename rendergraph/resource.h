@@ -103,13 +103,5 @@ constexpr ImageDesc withFormat(ImageDesc desc, VkFormat format) {
 VkExtent2D mipExtent(const ImageDesc& desc, uint32_t level);
 /// Levels of a complete mip chain.
 uint32_t fullMipCount(uint32_t width, uint32_t height);
-/// The range with its defaults replaced by numbers; it may lie outside the image.
-Subresources resolved(const Subresources& range, const ImageDesc& desc);
-/// Whether a resolved range is not empty and lies inside the image.
-bool inside(const Subresources& range, const ImageDesc& desc);
-/// Whether two resolved ranges share a subresource.
-bool overlap(const Subresources& a, const Subresources& b);
-/// Whether every subresource of `inner` lies in `outer`; both resolved.
-bool contains(const Subresources& outer, const Subresources& inner);
 
 }  // namespace lensgraph::rendergraph

@@ -1,7 +1,7 @@
-// Sizes of a device that does not exist.
-#include <algorithm>
+// Defaults of DeviceFacts, and the sizes of the nominal device.
+#include "rendergraph/device_facts.h"
 
-#include "rendergraph/compiler.h"
+#include <algorithm>
 
 namespace lensgraph::rendergraph {
 

@@ -4,6 +4,9 @@
 #include <string>
 #include <utility>
 
+#include "rendergraph/declare/names.h"
+#include "rendergraph/declare/subresources.h"
+
 namespace lensgraph::rendergraph {
 
 namespace {
@@ -90,10 +93,6 @@ void checkFormat(const Reporter& report, const DeclaredResource& resource) {
   }
 }
 
-bool meet(const DeclaredResource& resource, const Subresources& a, const Subresources& b) {
-  return !resource.isImage || overlap(a, b);
-}
-
 void reportRange(const Reporter& report, const DeclaredResource& resource, const Subresources& asked) {
   report(Misuse::subresourceRange,
          "mips " + std::to_string(asked.firstMip) + "+" + std::to_string(asked.mipCount) + ", layers " +
@@ -169,7 +168,7 @@ void checkConflicts(Declaration& declaration, AccessRequest request, const Subre
   const DeclaredResource& resource = declaration.resources[request.resource];
   const Reporter report{declaration, request};
   for (const DeclaredAccess& other : declaration.accessesOfPass(request.pass)) {
-    if (other.resource != request.resource || !meet(resource, other.range, range)) continue;
+    if (other.resource != request.resource || !overlap(resource.isImage, other.range, range)) continue;
     if (other.writes() && request.mode != AccessMode::read) {
       report(Misuse::doubleWrite, "the pass writes the same subresource twice",
              "declare one write of the whole, or split the pass");

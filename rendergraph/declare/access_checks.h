@@ -4,6 +4,7 @@
 
 #include <source_location>
 
+#include "rendergraph/declare/access_table.h"
 #include "rendergraph/declare/declaration.h"
 
 namespace lensgraph::rendergraph {

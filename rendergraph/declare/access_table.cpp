@@ -17,7 +17,6 @@ constexpr VkAccessFlags2 kDepthRead = VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_
 constexpr VkAccessFlags2 kDepthWrite = VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
 
 struct Row {
-  std::string_view name;
   VkPipelineStageFlags2 stages;  // 0: the shader stages given by the caller.
   VkAccessFlags2 read, write;    // 0: the usage cannot do that.
   VkAccessFlags2 always;         // Besides, in every mode.
@@ -26,34 +25,31 @@ struct Row {
   VkBufferUsageFlags bufferUsage;
 };
 
-// Indexed by Usage. A depth attachment that is only written is still tested, hence `always`.
+// Indexed by Usage, in the order of its enumerators. A depth attachment that is only written is still tested, hence `always`.
 constexpr std::array<Row, kUsages> kTable = {{
-    {"sampled", 0, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, 0, 0, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
-     VK_IMAGE_USAGE_SAMPLED_BIT, 0},
-    {"storage", 0, VK_ACCESS_2_SHADER_STORAGE_READ_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, 0,
-     VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_USAGE_STORAGE_BIT, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT},
-    {"color attachment", VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT,
+    {0, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, 0, 0, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_USAGE_SAMPLED_BIT,
+     0},
+    {0, VK_ACCESS_2_SHADER_STORAGE_READ_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, 0, VK_IMAGE_LAYOUT_GENERAL,
+     VK_IMAGE_USAGE_STORAGE_BIT, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT},
+    {VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT,
      VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT, 0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
      VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, 0},
-    {"depth attachment", kDepthStages, kDepthRead, kDepthWrite, kDepthRead, kDepthLayout,
-     VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, 0},
-    {"read-only depth attachment", kDepthStages, kDepthRead, 0, 0, kDepthReadLayout,
-     VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, 0},
-    {"transfer source", VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT, 0, 0,
-     VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_IMAGE_USAGE_TRANSFER_SRC_BIT, VK_BUFFER_USAGE_TRANSFER_SRC_BIT},
-    {"transfer destination", VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, 0, VK_ACCESS_2_TRANSFER_WRITE_BIT, 0,
-     VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_USAGE_TRANSFER_DST_BIT, VK_BUFFER_USAGE_TRANSFER_DST_BIT},
-    {"uniform", 0, VK_ACCESS_2_UNIFORM_READ_BIT, 0, 0, VK_IMAGE_LAYOUT_UNDEFINED, 0,
-     VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT},
-    {"indirect", VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT, 0, 0,
-     VK_IMAGE_LAYOUT_UNDEFINED, 0, VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT},
-    {"vertex", VK_PIPELINE_STAGE_2_VERTEX_ATTRIBUTE_INPUT_BIT, VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT, 0, 0,
+    {kDepthStages, kDepthRead, kDepthWrite, kDepthRead, kDepthLayout, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, 0},
+    {kDepthStages, kDepthRead, 0, 0, kDepthReadLayout, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, 0},
+    {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT, 0, 0, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+     VK_IMAGE_USAGE_TRANSFER_SRC_BIT, VK_BUFFER_USAGE_TRANSFER_SRC_BIT},
+    {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, 0, VK_ACCESS_2_TRANSFER_WRITE_BIT, 0, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+     VK_IMAGE_USAGE_TRANSFER_DST_BIT, VK_BUFFER_USAGE_TRANSFER_DST_BIT},
+    {0, VK_ACCESS_2_UNIFORM_READ_BIT, 0, 0, VK_IMAGE_LAYOUT_UNDEFINED, 0, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT},
+    {VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT, 0, 0, VK_IMAGE_LAYOUT_UNDEFINED, 0,
+     VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT},
+    {VK_PIPELINE_STAGE_2_VERTEX_ATTRIBUTE_INPUT_BIT, VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT, 0, 0,
      VK_IMAGE_LAYOUT_UNDEFINED, 0, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT},
-    {"index", VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT, VK_ACCESS_2_INDEX_READ_BIT, 0, 0, VK_IMAGE_LAYOUT_UNDEFINED, 0,
+    {VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT, VK_ACCESS_2_INDEX_READ_BIT, 0, 0, VK_IMAGE_LAYOUT_UNDEFINED, 0,
      VK_BUFFER_USAGE_INDEX_BUFFER_BIT},
     // The host needs no usage flag; a buffer that only the host touches must still be creatable.
-    {"host", VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT, VK_ACCESS_2_HOST_WRITE_BIT, 0,
-     VK_IMAGE_LAYOUT_UNDEFINED, 0, VK_BUFFER_USAGE_TRANSFER_SRC_BIT},
+    {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT, VK_ACCESS_2_HOST_WRITE_BIT, 0, VK_IMAGE_LAYOUT_UNDEFINED,
+     0, VK_BUFFER_USAGE_TRANSFER_SRC_BIT},
 }};
 
 constexpr AccessRules combine(Usage usage, AccessMode mode) {
@@ -103,22 +99,6 @@ VkImageLayout combinedLayout(VkImageLayout a, VkImageLayout b) {
     return oneOf(VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL) ? kDepthReadLayout : VK_IMAGE_LAYOUT_UNDEFINED;
   }
   return VK_IMAGE_LAYOUT_GENERAL;
-}
-
-std::string_view nameOf(Usage usage) {
-  return kTable[static_cast<std::size_t>(usage)].name;
-}
-
-std::string_view nameOf(AccessMode mode) {
-  switch (mode) {
-    case AccessMode::read:
-      return "read";
-    case AccessMode::write:
-      return "write";
-    case AccessMode::modify:
-      return "modify";
-  }
-  return "?";
 }
 
 }  // namespace lensgraph::rendergraph

@@ -1,38 +1,15 @@
-// How a pass may use a resource, and what each use means to Vulkan: stages, access bits, layout, usage flags.
-// This table is the only place where the four are put together.
+// What each usage means to Vulkan: stages, access bits, layout, usage flags. This table is the only place where the four
+// are put together.
 #pragma once
 
 #include <vulkan/vulkan_core.h>
 
 #include <array>
 #include <cstdint>
-#include <string_view>
 
-#include "rendergraph/resource.h"
+#include "rendergraph/usage.h"
 
 namespace lensgraph::rendergraph {
-
-enum class Usage : uint8_t {
-  sampled,              ///< Image read through a sampler or texelFetch.
-  storage,              ///< Image or buffer read/written by shaders; image layout GENERAL.
-  colorAttachment,      ///< Image written (and read, when loaded or blended) as colour attachment.
-  depthAttachment,      ///< Image tested and written as depth attachment.
-  depthReadOnly,        ///< Depth attachment that is tested, not written; may be sampled in the same pass.
-  transferSource,       ///< Source of copy or blit.
-  transferDestination,  ///< Destination of copy, blit, clear, fill.
-  uniform,              ///< Uniform buffer.
-  indirect,             ///< Arguments of an indirect draw or dispatch.
-  vertex,               ///< Vertex buffer.
-  index,                ///< Index buffer.
-  host,                 ///< Read or written by the host after or before the frame.
-};
-
-/// Whether an access keeps, changes or replaces content.
-enum class AccessMode : uint8_t {
-  read,
-  write,   ///< Replaces the content of the whole range; what was there is not needed.
-  modify,  ///< Reads and writes (blending, atomics, partial writes).
-};
 
 struct AccessRules {
   VkPipelineStageFlags2 stages;  ///< 0: the shader stages that touch the resource.
@@ -68,8 +45,5 @@ bool writesMemory(VkAccessFlags2 access);
 /// The layout in which one pass can use the same subresource in both ways; UNDEFINED when there is none (an
 /// attachment cannot be written and read otherwise in one pass).
 VkImageLayout combinedLayout(VkImageLayout a, VkImageLayout b);
-
-std::string_view nameOf(Usage usage);
-std::string_view nameOf(AccessMode mode);
 
 }  // namespace lensgraph::rendergraph

@@ -6,20 +6,22 @@
 
 #include <cstdint>
 #include <iterator>
-#include <limits>
 #include <source_location>
 #include <string_view>
 #include <type_traits>
 #include <vector>
 
-#include "rendergraph/declare/access_table.h"
 #include "rendergraph/declare/arena.h"
 #include "rendergraph/declare/records.h"
 #include "rendergraph/error.h"
-#include "rendergraph/pass.h"
+#include "rendergraph/handle.h"
+#include "rendergraph/pass_kind.h"
 #include "rendergraph/resource.h"
+#include "rendergraph/usage.h"
 
 namespace lensgraph::rendergraph {
+
+class PassContext;
 
 /// Who owns a resource and how long it lives.
 enum class Origin : uint8_t {
@@ -158,7 +160,8 @@ struct Declaration {
   /// Whether every access was declared before those of later passes, so that the order of the passes is one in which
   /// they can run. Accesses of several passes may be declared in turns; then compile() looks for an order.
   bool inOrder = true;
-  uint32_t latestPass = 0;  ///< Of the latest access.
+  uint32_t latestPass = 0;           ///< Of the latest access.
+  bool recordingsToDestroy = false;  ///< Some recording has a destructor.
 
   Declaration();
   ~Declaration();
@@ -196,8 +199,6 @@ struct Declaration {
  private:
   [[noreturn]] void throwHandle(uint32_t resource, uint32_t graph, uint32_t pass, std::source_location where) const;
   void destroyRecordings();
-  friend class Graph;
-  bool recordingsToDestroy = false;  // Some recording has a destructor.
 };
 
 /// State in which a persistent resource rests between frames: every later use is ordered after the last one, and

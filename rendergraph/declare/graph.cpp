@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <string>
 
+#include "rendergraph/declaration_observer.h"
 #include "rendergraph/declare/declaration.h"
-#include "rendergraph/image_tap.h"
 
 namespace lensgraph::rendergraph {
 
@@ -161,7 +161,7 @@ Graph& Graph::operator=(Graph&&) noexcept = default;
 
 void Graph::reset() {
   declaration_->reset();
-  if (taps_ != nullptr) taps_->restart();
+  if (observer_ != nullptr) observer_->declarationReset();
 }
 
 Image Graph::createImage(std::string_view name, const ImageDesc& desc, Location where) {
@@ -218,25 +218,25 @@ History Graph::history(std::string_view name, const ImageDesc& desc, Location wh
 
 void Graph::exportImage(Image image, const AccessState& after, Location where) {
   exportResource(*declaration_, image, after, where);
-  if (taps_ != nullptr) taps_->follow(*this, false);
+  if (observer_ != nullptr) observer_->passesDeclared(*this, false);
 }
 
 void Graph::exportBuffer(Buffer buffer, const AccessState& after, Location where) {
   exportResource(*declaration_, buffer, after, where);
-  if (taps_ != nullptr) taps_->follow(*this, false);
+  if (observer_ != nullptr) observer_->passesDeclared(*this, false);
 }
 
-void Graph::finishTaps() {
-  if (taps_ != nullptr) taps_->follow(*this, true);
+void Graph::finish() {
+  if (observer_ != nullptr) observer_->passesDeclared(*this, true);
 }
 
 Pass Graph::addPass(std::string_view name, PassKind kind, Location where) {
-  if (taps_ != nullptr) finishTaps();
+  finish();
   DeclaredPass& pass = declaration_->passes.add();
   pass.name = declaration_->arena.copy(name);
   pass.kind = kind;
   pass.where = where;
-  return Pass(*this, declaration_->passes.size() - 1);
+  return Pass(*declaration_, declaration_->passes.size() - 1);
 }
 
 const ImageDesc& Graph::desc(Image image) const {
@@ -245,19 +245,6 @@ const ImageDesc& Graph::desc(Image image) const {
 
 const BufferDesc& Graph::desc(Buffer buffer) const {
   return declaration_->resources[declaration_->indexOf(buffer, kNone, Location::current())].buffer;
-}
-
-void* Graph::allocateRecording(std::size_t size, std::size_t alignment) {
-  return declaration_->arena.allocate(size, alignment);
-}
-
-void Graph::setRecording(uint32_t pass, void* recording, Recorder recorder, Destroyer destroyer) {
-  DeclaredPass& declared = declaration_->passes[pass];
-  if (declared.destroyer != nullptr) declared.destroyer(declared.recording);  // record() was called again.
-  declared.recording = recording;
-  declared.recorder = recorder;
-  declared.destroyer = destroyer;
-  if (destroyer != nullptr) declaration_->recordingsToDestroy = true;
 }
 
 }  // namespace lensgraph::rendergraph

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "rendergraph/declare/declaration.h"
+#include "rendergraph/declare/subresources.h"
 #include "rendergraph/graph.h"
 
 namespace lensgraph::rendergraph {
@@ -32,19 +33,19 @@ Subresources rangeOf(const ImageTap& tap, VkImageAspectFlags aspect) {
 
 }  // namespace
 
-void ImageTaps::restart() {
+void ImageTaps::declarationReset() {
   images_.assign(taps_.size(), {});
   firstOpen_ = 0;
   following_ = false;
 }
 
-void ImageTaps::follow(Graph& graph, bool close) {
+void ImageTaps::passesDeclared(Graph& graph, bool complete) {
   if (following_) return;  // The copies are passes and exports too.
   following_ = true;
   images_.resize(taps_.size());
   const auto end = static_cast<uint32_t>(graph.declaration().passes.size());
   for (uint32_t pass = firstOpen_; pass < end; ++pass) followPass(graph, pass);
-  if (close) firstOpen_ = static_cast<uint32_t>(graph.declaration().passes.size());
+  if (complete) firstOpen_ = static_cast<uint32_t>(graph.declaration().passes.size());
   following_ = false;
 }
 

@@ -4,8 +4,9 @@
 #include "rendergraph/pass.h"
 
 #include "rendergraph/declare/access_checks.h"
+#include "rendergraph/declare/access_table.h"
 #include "rendergraph/declare/declaration.h"
-#include "rendergraph/graph.h"
+#include "rendergraph/declare/subresources.h"
 
 namespace lensgraph::rendergraph {
 
@@ -149,39 +150,35 @@ Handle<Tag> atVersion(Handle<Tag> handle, uint32_t version) {
 }  // namespace
 
 void Pass::sample(Image image, Subresources range, VkPipelineStageFlags2 stages, Location where) {
-  addPlain(*graph_->declaration_, index_, image, Usage::sampled, AccessMode::read, range, stages, where);
+  addPlain(*declaration_, index_, image, Usage::sampled, AccessMode::read, range, stages, where);
 }
 
 void Pass::read(Image image, Usage usage, Subresources range, VkPipelineStageFlags2 stages, Location where) {
-  addPlain(*graph_->declaration_, index_, image, usage, AccessMode::read, range, stages, where);
+  addPlain(*declaration_, index_, image, usage, AccessMode::read, range, stages, where);
 }
 
 void Pass::read(Buffer buffer, Usage usage, VkPipelineStageFlags2 stages, Location where) {
-  addPlain(*graph_->declaration_, index_, buffer, usage, AccessMode::read, {}, stages, where);
+  addPlain(*declaration_, index_, buffer, usage, AccessMode::read, {}, stages, where);
 }
 
 Image Pass::write(Image image, Usage usage, Subresources range, VkPipelineStageFlags2 stages, Location where) {
-  return atVersion(image,
-                   addPlain(*graph_->declaration_, index_, image, usage, AccessMode::write, range, stages, where));
+  return atVersion(image, addPlain(*declaration_, index_, image, usage, AccessMode::write, range, stages, where));
 }
 
 Buffer Pass::write(Buffer buffer, Usage usage, VkPipelineStageFlags2 stages, Location where) {
-  return atVersion(buffer,
-                   addPlain(*graph_->declaration_, index_, buffer, usage, AccessMode::write, {}, stages, where));
+  return atVersion(buffer, addPlain(*declaration_, index_, buffer, usage, AccessMode::write, {}, stages, where));
 }
 
 Image Pass::modify(Image image, Usage usage, Subresources range, VkPipelineStageFlags2 stages, Location where) {
-  return atVersion(image,
-                   addPlain(*graph_->declaration_, index_, image, usage, AccessMode::modify, range, stages, where));
+  return atVersion(image, addPlain(*declaration_, index_, image, usage, AccessMode::modify, range, stages, where));
 }
 
 Buffer Pass::modify(Buffer buffer, Usage usage, VkPipelineStageFlags2 stages, Location where) {
-  return atVersion(buffer,
-                   addPlain(*graph_->declaration_, index_, buffer, usage, AccessMode::modify, {}, stages, where));
+  return atVersion(buffer, addPlain(*declaration_, index_, buffer, usage, AccessMode::modify, {}, stages, where));
 }
 
 Image Pass::color(Image image, const ColorAttachment& attachment, Location where) {
-  Declaration& declaration = *graph_->declaration_;
+  Declaration& declaration = *declaration_;
   image.version = addAttachment(declaration,
                                 {.resource = declaration.indexOf(image, index_, where),
                                  .version = image.version,
@@ -197,7 +194,7 @@ Image Pass::color(Image image, const ColorAttachment& attachment, Location where
 }
 
 Image Pass::depth(Image image, const DepthAttachment& attachment, Location where) {
-  Declaration& declaration = *graph_->declaration_;
+  Declaration& declaration = *declaration_;
   image.version = addAttachment(declaration,
                                 {.resource = declaration.indexOf(image, index_, where),
                                  .version = image.version,
@@ -213,7 +210,7 @@ Image Pass::depth(Image image, const DepthAttachment& attachment, Location where
 }
 
 Image Pass::resolve(Image target, Subresources range, Location where) {
-  Declaration& declaration = *graph_->declaration_;
+  Declaration& declaration = *declaration_;
   target.version = addAttachment(declaration, {.resource = declaration.indexOf(target, index_, where),
                                                .version = target.version,
                                                .pass = index_,
@@ -226,7 +223,7 @@ Image Pass::resolve(Image target, Subresources range, Location where) {
 }
 
 void Pass::depthReadOnly(Image image, Subresources range, Location where) {
-  Declaration& declaration = *graph_->declaration_;
+  Declaration& declaration = *declaration_;
   addAttachment(declaration, {.resource = declaration.indexOf(image, index_, where),
                               .version = image.version,
                               .pass = index_,
@@ -239,28 +236,41 @@ void Pass::depthReadOnly(Image image, Subresources range, Location where) {
 }
 
 void Pass::renderArea(VkExtent2D extent, uint32_t layers) {
-  DeclaredPass& pass = graph_->declaration_->passes[index_];
+  DeclaredPass& pass = declaration_->passes[index_];
   if (pass.hasAttachments) return;  // The attachments decide.
   pass.renderArea = extent;
   pass.renderLayers = layers;
 }
 
 void Pass::onlyIf(bool condition) {
-  DeclaredPass& pass = graph_->declaration_->passes[index_];
+  DeclaredPass& pass = declaration_->passes[index_];
   if (pass.firstAccess != kNone) {
-    graph_->declaration_->report(Misuse::undeclaredAccess, index_, kNone, "its condition comes after its accesses",
-                                 "call onlyIf() right after addPass()", pass.where);
+    declaration_->report(Misuse::undeclaredAccess, index_, kNone, "its condition comes after its accesses",
+                         "call onlyIf() right after addPass()", pass.where);
     return;
   }
   pass.disabled = !condition;
 }
 
 void Pass::sideEffect() {
-  graph_->declaration_->passes[index_].sideEffect = true;
+  declaration_->passes[index_].sideEffect = true;
 }
 
 void Pass::prefer(QueuePreference queue) {
-  graph_->declaration_->passes[index_].queue = queue;
+  declaration_->passes[index_].queue = queue;
+}
+
+void* Pass::allocateRecording(std::size_t size, std::size_t alignment) {
+  return declaration_->arena.allocate(size, alignment);
+}
+
+void Pass::setRecording(void* recording, Recorder recorder, Destroyer destroyer) {
+  DeclaredPass& declared = declaration_->passes[index_];
+  if (declared.destroyer != nullptr) declared.destroyer(declared.recording);  // record() was called again.
+  declared.recording = recording;
+  declared.recorder = recorder;
+  declared.destroyer = destroyer;
+  if (destroyer != nullptr) declaration_->recordingsToDestroy = true;
 }
 
 }  // namespace lensgraph::rendergraph

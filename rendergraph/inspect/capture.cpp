@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "rendergraph/declare/subresources.h"
+
 namespace lensgraph::rendergraph {
 
 namespace {
@@ -13,10 +15,6 @@ struct LiveWrite {
   uint32_t step = 0;
   Subresources range;
 };
-
-bool meet(const CapturedResource& resource, const Subresources& a, const Subresources& b) {
-  return !resource.isImage || overlap(a, b);
-}
 
 bool covers(const CapturedResource& resource, const Subresources& outer, const Subresources& inner) {
   return !resource.isImage || contains(outer, inner);
@@ -32,7 +30,7 @@ std::vector<CapturedEdge> edgesOf(const Capture& capture) {
     for (const CapturedUse& use : uses) {
       if (!use.reads) continue;
       for (const LiveWrite& write : writes[use.resource]) {
-        if (!meet(capture.resources[use.resource], write.range, use.range)) continue;
+        if (!overlap(capture.resources[use.resource].isImage, write.range, use.range)) continue;
         edges.push_back({.from = write.step, .to = step, .resource = use.resource});
       }
     }

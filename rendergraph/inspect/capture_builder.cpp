@@ -6,6 +6,7 @@
 #include "rendergraph/capture.h"
 #include "rendergraph/declare/declaration.h"
 #include "rendergraph/declare/names.h"
+#include "rendergraph/declare/subresources.h"
 
 namespace lensgraph::rendergraph {
 
@@ -116,18 +117,6 @@ void describeMemory(Capture& capture, const Declaration& declaration, const Plan
   }
   capture.heaps.clear();
   for (const PlannedHeap& heap : plan.heaps) capture.heaps.push_back({.size = heap.size, .memory = heap.memory});
-}
-
-const char* nameOf(Timing timing) {
-  switch (timing) {
-    case Timing::none:
-      return "none";
-    case Timing::inlineTimestamps:
-      return "inline";
-    case Timing::isolated:
-      return "isolated";
-  }
-  return "?";
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "rendergraph/capture.h"
-#include "rendergraph/executor.h"
+#include "rendergraph/execute_options.h"
 
 namespace lensgraph::rendergraph {
 

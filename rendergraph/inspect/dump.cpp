@@ -16,26 +16,6 @@ namespace lensgraph::rendergraph {
 
 namespace {
 
-std::string_view nameOf(BarrierReason reason) {
-  switch (reason) {
-    case BarrierReason::readAfterWrite:
-      return "read after write";
-    case BarrierReason::writeAfterRead:
-      return "write after read";
-    case BarrierReason::writeAfterWrite:
-      return "write after write";
-    case BarrierReason::layout:
-      return "layout";
-    case BarrierReason::alias:
-      return "alias";
-    case BarrierReason::release:
-      return "release";
-    case BarrierReason::acquire:
-      return "acquire";
-  }
-  return "?";
-}
-
 std::string_view nameOf(VkAttachmentLoadOp load) {
   switch (load) {
     case VK_ATTACHMENT_LOAD_OP_LOAD:

@@ -18,6 +18,7 @@
 #include "engine/vulkan/command_buffers.h"
 #include "engine/vulkan/device.h"
 #include "passes/pinhole/pinhole.h"
+#include "rendergraph/compiler.h"
 #include "samples/host/read_back.h"
 #include "samples/host/shot_scene.h"
 #include "samples/host/texels.h"
@@ -277,12 +278,12 @@ Rendering Renderer::State::run(const passes::Technique& technique, const DofInpu
   Graph graph;
   rendergraph::ImageTaps taps;
   for (const auto& tap : options.taps) taps.add(tap);
-  if (options.tapped != nullptr) graph.setTaps(&taps);
+  if (options.tapped != nullptr) graph.observe(&taps);
   for (uint32_t frame = 0; frame < frames; ++frame) {
     graph.reset();
     const bool isLast = frame + 1 == frames;
     const auto back = declareReadBacks(graph, declareFrame(graph, frame), isLast, options.wantDepth);
-    graph.finishTaps();
+    graph.finish();
     executor.execute(graph, options.execute);
     ++rendering.executions;
     if (options.observe) options.observe(executor.capture());

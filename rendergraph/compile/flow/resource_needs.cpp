@@ -1,5 +1,6 @@
 #include "rendergraph/compile/flow/resource_needs.h"
 
+#include "rendergraph/declare/access_table.h"
 #include "rendergraph/declare/declaration.h"
 
 namespace lensgraph::rendergraph {

@@ -1,4 +1,7 @@
+// Vulkan 1.3, "Synchronization and Cache Control": which stages and accesses the collective flags include.
 #include "rendergraph/compile/flow/stage_masks.h"
+
+#include "rendergraph/declare/access_table.h"
 
 namespace lensgraph::rendergraph {
 
@@ -31,26 +34,6 @@ VkAccessFlags2 expandedAccess(VkAccessFlags2 access) {
     access |= VK_ACCESS_2_SHADER_SAMPLED_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_READ_BIT;
   }
   return access;
-}
-
-bool Visibility::covers(VkPipelineStageFlags2 stages, VkAccessFlags2 access) const {
-  if (everything_) return true;
-  for (std::size_t i = 0; i < count_; ++i) {
-    if ((expandedStages(stages) & ~expandedStages(scopes_[i].stages)) == 0 &&
-        (expandedAccess(access) & ~expandedAccess(scopes_[i].access)) == 0) {
-      return true;
-    }
-  }
-  return false;
-}
-
-VkAccessFlags2 Visibility::uncovered(VkPipelineStageFlags2 stages, VkAccessFlags2 access) const {
-  VkAccessFlags2 result = 0;
-  for (VkAccessFlags2 rest = access; rest != 0; rest &= rest - 1) {
-    const VkAccessFlags2 bit = rest & ~(rest - 1);
-    if (!covers(stages, bit)) result |= bit;
-  }
-  return result;
 }
 
 }  // namespace lensgraph::rendergraph

@@ -3,11 +3,12 @@
 
 #include <vector>
 
-#include "rendergraph/compiler.h"
+#include "rendergraph/device_facts.h"
 #include "rendergraph/error.h"
 
 namespace lensgraph::rendergraph {
 
+struct Declaration;
 class Cells;
 
 /// The problems noted by the declaration calls, followed by those found here, in order of declaration.

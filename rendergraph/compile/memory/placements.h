@@ -5,7 +5,8 @@
 
 #include "rendergraph/compile/flow/resource_needs.h"
 #include "rendergraph/compile/schedule/queues.h"
-#include "rendergraph/compiler.h"
+#include "rendergraph/compile_options.h"
+#include "rendergraph/device_facts.h"
 #include "rendergraph/plan.h"
 
 namespace lensgraph::rendergraph {

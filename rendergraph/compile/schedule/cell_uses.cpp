@@ -4,6 +4,7 @@
 #include "rendergraph/compile/flow/cells.h"
 #include "rendergraph/compile/flow/stage_masks.h"
 #include "rendergraph/compile/schedule/schedule.h"
+#include "rendergraph/declare/access_table.h"
 #include "rendergraph/declare/declaration.h"
 
 namespace lensgraph::rendergraph {

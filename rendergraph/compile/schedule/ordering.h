@@ -1,11 +1,13 @@
 // The order in which living passes execute. Pure and deterministic.
 #pragma once
 
+#include <vulkan/vulkan_core.h>
+
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "rendergraph/compiler.h"
+#include "rendergraph/compile_options.h"
 
 namespace lensgraph::rendergraph {
 

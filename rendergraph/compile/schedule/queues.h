@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "rendergraph/compiler.h"
+#include "rendergraph/device_facts.h"
 
 namespace lensgraph::rendergraph {
 

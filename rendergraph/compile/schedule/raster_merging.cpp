@@ -2,6 +2,7 @@
 
 #include "rendergraph/compile/schedule/schedule.h"
 #include "rendergraph/declare/declaration.h"
+#include "rendergraph/declare/subresources.h"
 
 namespace lensgraph::rendergraph {
 
@@ -35,7 +36,7 @@ bool sameAttachments(const Declaration& declaration, const DeclaredPass& first, 
 
 /// Whether an access of a later pass would have to be ordered after one of an earlier pass of the same rendering.
 bool needsOrder(const DeclaredResource& resource, const DeclaredAccess& earlier, const DeclaredAccess& later) {
-  if (earlier.resource != later.resource || (resource.isImage && !overlap(earlier.range, later.range))) return false;
+  if (earlier.resource != later.resource || !overlap(resource.isImage, earlier.range, later.range)) return false;
   if (earlier.role != AttachmentRole::none && later.role != AttachmentRole::none) return false;
   return earlier.writes() || later.writes() || earlier.layout != later.layout;
 }

@@ -7,7 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "rendergraph/compiler.h"
+#include "rendergraph/compile_options.h"
+#include "rendergraph/device_facts.h"
 #include "rendergraph/plan.h"
 
 namespace lensgraph::rendergraph {

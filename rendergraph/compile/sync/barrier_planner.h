@@ -16,6 +16,7 @@
 #include "rendergraph/compile/sync/barrier_batching.h"
 #include "rendergraph/compile/sync/barrier_trimming.h"
 #include "rendergraph/compile/sync/plan_barriers.h"
+#include "rendergraph/compile/sync/visibility.h"
 #include "rendergraph/declare/declaration.h"
 
 namespace lensgraph::rendergraph {

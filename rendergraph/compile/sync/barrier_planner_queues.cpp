@@ -9,6 +9,7 @@
 #include <algorithm>
 
 #include "rendergraph/compile/sync/barrier_planner.h"
+#include "rendergraph/declare/access_table.h"
 
 namespace lensgraph::rendergraph {
 

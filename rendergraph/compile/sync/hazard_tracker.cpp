@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "rendergraph/compile/flow/stage_masks.h"
+#include "rendergraph/declare/access_table.h"
 #include "rendergraph/declare/declaration.h"
 
 namespace lensgraph::rendergraph {

@@ -7,6 +7,7 @@
 #include "rendergraph/compile/schedule/schedule.h"
 #include "rendergraph/compile/schedule/submissions.h"
 #include "rendergraph/compile/sync/hazard_tracker.h"
+#include "rendergraph/declare/access_table.h"
 #include "rendergraph/declare/declaration.h"
 
 namespace lensgraph::rendergraph {

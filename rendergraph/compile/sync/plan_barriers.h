@@ -4,7 +4,8 @@
 #include <span>
 
 #include "rendergraph/compile/schedule/queues.h"
-#include "rendergraph/compiler.h"
+#include "rendergraph/compile_options.h"
+#include "rendergraph/device_facts.h"
 #include "rendergraph/plan.h"
 
 namespace lensgraph::rendergraph {

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "rendergraph/compiler.h"
 #include "rendergraph/inspect/capture_builder.h"
 
 namespace lensgraph::rendergraph {

@@ -5,6 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include "rendergraph/backend.h"
+#include "rendergraph/capture.h"
 #include "rendergraph/execute/frame/frame_in_flight.h"
 #include "rendergraph/execute/frame/plan_cache.h"
 #include "rendergraph/execute/frame/recording_context.h"
@@ -12,7 +14,7 @@
 #include "rendergraph/execute/resources/deletion_queue.h"
 #include "rendergraph/execute/resources/persistent_store.h"
 #include "rendergraph/execute/resources/plan_resources.h"
-#include "rendergraph/executor.h"
+#include "rendergraph/execute_options.h"
 #include "rendergraph/jobs.h"
 
 namespace lensgraph::rendergraph {

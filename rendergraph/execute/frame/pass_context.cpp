@@ -1,9 +1,12 @@
 // What a recording may do: finds the Vulkan objects behind handles, and refuses what the pass did not declare.
+#include "rendergraph/pass_context.h"
+
 #include <algorithm>
 #include <string>
 
-#include "rendergraph/execute/frame/step_recorder.h"
-#include "rendergraph/pass.h"
+#include "rendergraph/declare/names.h"
+#include "rendergraph/declare/subresources.h"
+#include "rendergraph/execute/frame/step_state.h"
 
 namespace lensgraph::rendergraph {
 
@@ -111,13 +114,13 @@ class Access {
 
 }  // namespace
 
-/// Reaches into the recorder for PassContext, which is a friend of it.
+/// What the functions of PassContext share: the frame, the step, and the checks in the name of its pass.
 struct PassContext::Inside {
   explicit Inside(const PassContext& context)
-      : frame(*context.recorder_.frame_),
+      : frame(context.step_.frame),
         access(*frame.declaration, context.pass_),
-        commands(context.recorder_.commands_),
-        bindings(context.recorder_.bindings_) {}
+        commands(context.step_.commands),
+        bindings(context.step_.bindings) {}
 
   /// Commands are recorded by every pass but host passes.
   const CommandStream& recording(uint32_t pass) const {
@@ -176,7 +179,7 @@ struct PassContext::Inside {
 };
 
 CommandStream PassContext::commands() const {
-  return recorder_.commands_;
+  return step_.commands;
 }
 
 VkImage PassContext::image(Image image) const {
@@ -214,15 +217,15 @@ VkExtent2D PassContext::extent(Image image, uint32_t mipLevel) const {
 }
 
 std::span<const VkFormat> PassContext::colorFormats() const {
-  return recorder_.colorFormats_;
+  return step_.colorFormats;
 }
 
 VkFormat PassContext::depthFormat() const {
-  return recorder_.depthFormat_;
+  return step_.depthFormat;
 }
 
 VkSampleCountFlagBits PassContext::samples() const {
-  return recorder_.samples_;
+  return step_.samples;
 }
 
 void PassContext::dispatch(const Dispatch& dispatch) {
@@ -254,10 +257,10 @@ void PassContext::draw(const Draw& draw) {
                                        .specialization = draw.specialization,
                                        .vertexCount = draw.vertexCount,
                                        .instanceCount = draw.instanceCount,
-                                       .renderArea = recorder_.planned_->renderArea,
-                                       .colorFormats = recorder_.colorFormats_,
-                                       .depthFormat = recorder_.depthFormat_,
-                                       .samples = recorder_.samples_});
+                                       .renderArea = step_.planned->renderArea,
+                                       .colorFormats = step_.colorFormats,
+                                       .depthFormat = step_.depthFormat,
+                                       .samples = step_.samples});
 }
 
 void PassContext::copyImage(Image from, Image to) {

@@ -10,7 +10,6 @@
 #include "rendergraph/declare/declaration.h"
 #include "rendergraph/execute/resources/resource_table.h"
 #include "rendergraph/execute/resources/unique_handle.h"
-#include "rendergraph/executor.h"
 #include "rendergraph/plan.h"
 
 namespace lensgraph::rendergraph {

@@ -4,7 +4,7 @@
 #include <iterator>
 
 #include "rendergraph/execute/resources/error_names.h"
-#include "rendergraph/pass.h"
+#include "rendergraph/pass_context.h"
 
 namespace lensgraph::rendergraph {
 
@@ -99,19 +99,19 @@ VkDependencyInfo StepRecorder::dependencyOf(const BarrierBatch& batch) {
 }
 
 void StepRecorder::recordBarriers(const BarrierBatch& batch) {
-  if (!batch.empty()) frame_->backend.barrier(commands_, dependencyOf(batch));
+  if (!batch.empty()) frame_->backend.barrier(state_.commands, dependencyOf(batch));
 }
 
 void StepRecorder::recordWaits(const PlannedPass& planned) {
   for (uint32_t i = planned.waits.first; i < planned.waits.first + planned.waits.count; ++i) {
-    frame_->backend.waitEvent(commands_, frame_->events[i].get(), dependencyOf(frame_->plan->events[i].barriers));
+    frame_->backend.waitEvent(state_.commands, frame_->events[i].get(), dependencyOf(frame_->plan->events[i].barriers));
   }
   recordBarriers(planned.before);
 }
 
 void StepRecorder::recordSets(const PlannedPass& planned) {
   for (const uint32_t event : frame_->plan->setsOf(planned)) {
-    frame_->backend.setEvent(commands_, frame_->events[event].get(),
+    frame_->backend.setEvent(state_.commands, frame_->events[event].get(),
                              dependencyOf(frame_->plan->events[event].barriers));
   }
 }
@@ -119,7 +119,8 @@ void StepRecorder::recordSets(const PlannedPass& planned) {
 void StepRecorder::stamp(uint32_t step, uint32_t end) {
   if (!frame_->isStamped(step)) return;
   // ALL_COMMANDS at both ends: everything before has finished, so passes that overlap are not counted twice.
-  frame_->backend.writeTimestamp(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, frame_->timestamps, 2 * step + end);
+  frame_->backend.writeTimestamp(state_.commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, frame_->timestamps,
+                                 2 * step + end);
 }
 
 VkRenderingAttachmentInfo StepRecorder::attachmentInfo(const PlannedAttachment& attachment, const VkClearValue& clear) {
@@ -148,16 +149,16 @@ void StepRecorder::beginRendering(const PlannedPass& planned) {
     if (access.role == AttachmentRole::depth) depthClear = access.clear;
   }
   colors_.clear();
-  colorFormats_.clear();
-  depthFormat_ = VK_FORMAT_UNDEFINED;
-  samples_ = VK_SAMPLE_COUNT_1_BIT;
+  state_.colorFormats.clear();
+  state_.depthFormat = VK_FORMAT_UNDEFINED;
+  state_.samples = VK_SAMPLE_COUNT_1_BIT;
   const auto note = [&](const PlannedAttachment& attachment) {
     const ImageDesc& desc = declaration.resources[attachment.resource].image;
-    samples_ = desc.samples;
+    state_.samples = desc.samples;
     return desc.format;
   };
   for (const PlannedAttachment& attachment : frame_->plan->colorsOf(planned)) {
-    colorFormats_.push_back(note(attachment));
+    state_.colorFormats.push_back(note(attachment));
     colors_.push_back(attachmentInfo(attachment, colorClears_[colors_.size()]));
   }
   VkRenderingInfo rendering{};
@@ -168,19 +169,19 @@ void StepRecorder::beginRendering(const PlannedPass& planned) {
   rendering.pColorAttachments = colors_.data();
   VkRenderingAttachmentInfo depth;
   for (const PlannedAttachment& attachment : frame_->plan->depthOf(planned)) {
-    depthFormat_ = note(attachment);
+    state_.depthFormat = note(attachment);
     depth = attachmentInfo(attachment, depthClear);
     rendering.pDepthAttachment = &depth;
   }
-  frame_->backend.beginRendering(commands_, rendering);
+  frame_->backend.beginRendering(state_.commands, rendering);
 }
 
 void StepRecorder::runRecording(uint32_t step) {
   const PlannedPass& planned = frame_->plan->passes[step];
   const DeclaredPass& pass = frame_->declared(planned);
   if (pass.recorder == nullptr) return;
-  planned_ = &planned;
-  PassContext context(*this, planned.pass);
+  state_.planned = &planned;
+  PassContext context(state_, planned.pass);
   pass.recorder(pass.recording, context);
 }
 
@@ -201,15 +202,15 @@ void StepRecorder::recordNamed(uint32_t step) {
   const PlannedPass& planned = plan.passes[step];
   const bool raster = frame_->declared(planned).kind == PassKind::raster;
   const bool isContinued = step + 1 < plan.passes.size() && plan.passes[step + 1].continuesRendering;
-  frame_->backend.beginLabel(commands_, frame_->declared(planned).name);
+  frame_->backend.beginLabel(state_.commands, frame_->declared(planned).name);
   recordWaits(planned);
   stamp(step, 0);
   if (raster && !planned.continuesRendering) beginRendering(planned);
   runRecording(step);
-  if (raster && !isContinued) frame_->backend.endRendering(commands_);
+  if (raster && !isContinued) frame_->backend.endRendering(state_.commands);
   stamp(step, 1);
   recordSets(planned);
-  frame_->backend.endLabel(commands_);
+  frame_->backend.endLabel(state_.commands);
 }
 
 void StepRecorder::recordHostWait(uint32_t step) {
@@ -218,7 +219,7 @@ void StepRecorder::recordHostWait(uint32_t step) {
 
 void StepRecorder::runHostPass(uint32_t step) {
   const double startMs = millisecondsSince(frame_->start);
-  commands_ = {};
+  state_.commands = {};
   runRecording(step);
   noteRecording(step, startMs);
 }

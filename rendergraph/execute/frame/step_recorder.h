@@ -7,15 +7,16 @@
 
 #include "rendergraph/backend.h"
 #include "rendergraph/execute/frame/recording_context.h"
+#include "rendergraph/execute/frame/step_state.h"
 
 namespace lensgraph::rendergraph {
 
 class StepRecorder {
  public:
-  explicit StepRecorder(RecordingContext& frame) : frame_(&frame) {}
+  explicit StepRecorder(RecordingContext& frame) : frame_(&frame), state_(frame) {}
 
   /// Where the steps go from now on.
-  void setCommands(const CommandStream& commands) { commands_ = commands; }
+  void setCommands(const CommandStream& commands) { state_.commands = commands; }
   /// Records one step with its barriers and events. The steps of one rendering are recorded by one recorder, in order.
   /// What the pass's recording throws passes through.
   void recordStep(uint32_t step);
@@ -26,7 +27,6 @@ class StepRecorder {
   void runHostPass(uint32_t step);
 
  private:
-  friend class PassContext;
   void recordNamed(uint32_t step);
   void recordWaits(const PlannedPass& planned);
   void recordSets(const PlannedPass& planned);
@@ -39,14 +39,8 @@ class StepRecorder {
   VkDependencyInfo dependencyOf(const BarrierBatch& batch);
 
   RecordingContext* frame_;
-  CommandStream commands_;
-  const PlannedPass* planned_ = nullptr;  // The step being recorded.
-  // Of the rendering that is going on:
-  std::vector<VkFormat> colorFormats_;
-  VkFormat depthFormat_ = VK_FORMAT_UNDEFINED;
-  VkSampleCountFlagBits samples_ = VK_SAMPLE_COUNT_1_BIT;
+  StepState state_;
   // Reused from call to call:
-  std::vector<ResolvedBinding> bindings_;
   std::vector<VkClearValue> colorClears_;
   std::vector<VkRenderingAttachmentInfo> colors_;
   std::vector<VkImageMemoryBarrier2> imageBarriers_;

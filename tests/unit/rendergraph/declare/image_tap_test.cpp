@@ -21,7 +21,7 @@ const AccessState kSampled{VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_
 
 class Taps : public testing::Test {
  protected:
-  Taps() { graph_.setTaps(&taps_); }
+  Taps() { graph_.observe(&taps_); }
   Image write(const char* pass, Image image, Subresources range = {}) {
     return graph_.addPass(pass, PassKind::compute).write(image, Usage::storage, range);
   }
@@ -33,7 +33,7 @@ class Taps : public testing::Test {
     other = write("third", other);
     image = graph_.addPass("second", PassKind::compute).modify(image, Usage::storage);
     graph_.exportImage(image, kSampled);
-    graph_.finishTaps();
+    graph_.finish();
   }
   std::vector<std::string> executed() {
     executor_.execute(graph_);
@@ -79,8 +79,8 @@ TEST_F(Taps, OfTheLastPassAreAddedByAnExport) {
 TEST_F(Taps, OfTheLastPassAreAddedByFinishing) {
   taps_.add({.pass = "last", .resource = "image"});
   write("last", graph_.createImage("image", kDesc));
-  graph_.finishTaps();
-  graph_.finishTaps();  // A second time adds nothing.
+  graph_.finish();
+  graph_.finish();  // A second time adds nothing.
   EXPECT_THAT(executed(), ElementsAre("last", "tap last/image"));
 }
 
@@ -112,7 +112,7 @@ TEST_F(Taps, OfOneMipAndLayer) {
   Image image = graph_.createImage("image", kDesc);
   image = write("mip 0", image, mip(0));
   image = write("mip 1", image, mip(1));
-  graph_.finishTaps();
+  graph_.finish();
   EXPECT_THAT(executed(), ElementsAre("mip 1", "tap mip 1/image")) << "mip 0 is seen by nobody";
   EXPECT_EQ(taps_.images().at(0).extent.width, 32u);
   EXPECT_EQ(executor_.mapped(taps_.images().at(0).buffer).size(), 32u * 16 * 8);
@@ -122,7 +122,7 @@ TEST_F(Taps, OfDepth) {
   taps_.add({.pass = "draw", .resource = "depth"});
   Image depth = graph_.createImage("depth", {.format = VK_FORMAT_D32_SFLOAT_S8_UINT, .width = 8, .height = 4});
   depth = graph_.addPass("draw", PassKind::raster).depth(depth);
-  graph_.finishTaps();
+  graph_.finish();
   EXPECT_THAT(executed(), ElementsAre("draw", "tap draw/depth"));
   EXPECT_EQ(taps_.images().at(0).aspect, VkImageAspectFlags{VK_IMAGE_ASPECT_DEPTH_BIT});
 }

@@ -1,5 +1,6 @@
 // Plans made by hand, with everything that rendergraph/plan.h can say, and what becomes of them on a backend that knows
 // in which order submissions, events and renderings are legal.
+#include "rendergraph/compiler.h"
 #include "rendergraph/execute/frame/executor_state.h"
 #include "rendergraph/execute/frame/frame_runner.h"
 #include "support/executor_support.h"

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "rendergraph/jobs.h"
 #include "support/executor_support.h"
 
 namespace lensgraph {

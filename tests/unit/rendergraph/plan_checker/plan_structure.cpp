@@ -6,6 +6,7 @@
 
 #include "plan_checker/plan_order.h"
 #include "plan_checker/usage_model.h"
+#include "rendergraph/declare/subresources.h"
 
 namespace lensgraph::plan_checker {
 
