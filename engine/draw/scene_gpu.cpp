@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "engine/vulkan/command_buffers.h"
+#include "engine/vulkan/vulkan_functions.h"
 #include "shaders/shared/scene.h"
 
 namespace lensgraph::engine {

@@ -9,6 +9,7 @@
 #include "engine/draw/scene_constants.h"
 #include "engine/vulkan/command_buffers.h"
 #include "engine/vulkan/raster_pipeline.h"
+#include "engine/vulkan/vulkan_functions.h"
 #include "spirv/scene/fragment_list_frag.h"
 #include "spirv/scene/layer_radiance_frag.h"
 #include "spirv/scene/layer_surface_frag.h"

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "engine/graph/graph_error.h"
+#include "engine/vulkan/vulkan_functions.h"
 
 namespace lensgraph::engine {
 

@@ -1,9 +1,10 @@
-// Recording and submission for the graph.
+// Records the graph's commands: barriers, renderings, dispatches, draws, copies, labels and timestamps.
 #include <array>
 #include <string>
 
 #include "engine/graph/graph_backend.h"
 #include "engine/graph/graph_error.h"
+#include "engine/vulkan/vulkan_functions.h"
 
 namespace lensgraph::engine {
 
@@ -35,15 +36,17 @@ void GraphBackend::endRendering(const CommandStream& commands) {
 }
 
 void GraphBackend::beginLabel(const CommandStream& commands, std::string_view name) {
-  if (vkCmdBeginDebugUtilsLabelEXT == nullptr) return;
+  const auto& vk = device_.vk();
+  if (vk.vkCmdBeginDebugUtilsLabelEXT == nullptr) return;
   std::array<char, 128> text{};
   name.copy(text.data(), text.size() - 1);
   VkDebugUtilsLabelEXT label{VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT};
   label.pLabelName = text.data();
-  vkCmdBeginDebugUtilsLabelEXT(commands.buffer, &label);
+  vk.vkCmdBeginDebugUtilsLabelEXT(commands.buffer, &label);
 }
 void GraphBackend::endLabel(const CommandStream& commands) {
-  if (vkCmdEndDebugUtilsLabelEXT != nullptr) vkCmdEndDebugUtilsLabelEXT(commands.buffer);
+  const auto& vk = device_.vk();
+  if (vk.vkCmdEndDebugUtilsLabelEXT != nullptr) vk.vkCmdEndDebugUtilsLabelEXT(commands.buffer);
 }
 
 void GraphBackend::writeTimestamp(const CommandStream& commands, VkPipelineStageFlags2 stage, VkQueryPool pool,

@@ -3,6 +3,7 @@
 
 #include "engine/graph/graph_backend.h"
 #include "engine/graph/graph_error.h"
+#include "engine/vulkan/vulkan_functions.h"
 
 namespace lensgraph::engine {
 

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <vector>
 
+#include "engine/vulkan/vulkan_functions.h"
+
 namespace lensgraph::engine {
 namespace {
 

@@ -1,6 +1,8 @@
 // Pools of descriptor sets, and their content.
 #include "engine/vulkan/descriptors.h"
 
+#include "engine/vulkan/vulkan_functions.h"
+
 namespace lensgraph::engine {
 
 void DescriptorRing::reset() {

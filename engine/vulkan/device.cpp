@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "engine/error.h"
+#include "engine/vulkan/vulkan_functions.h"
 
 namespace lensgraph::engine {
 namespace {
@@ -63,11 +64,11 @@ int capability(const std::string& type) {
   return static_cast<int>(std::find(std::begin(order), std::end(order), type) - std::begin(order));
 }
 
-std::vector<VkQueueFamilyProperties> queueFamilies(VkPhysicalDevice physical) {
+std::vector<VkQueueFamilyProperties> queueFamilies(const InstanceFunctions& vk, VkPhysicalDevice physical) {
   uint32_t count = 0;
-  vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
+  vk.vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
   std::vector<VkQueueFamilyProperties> families(count);
-  vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, families.data());
+  vk.vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, families.data());
   return families;
 }
 
@@ -100,11 +101,11 @@ int findTransferFamily(std::vector<VkQueueFamilyProperties> families) {
   return findQueueFamily(families, VK_QUEUE_TRANSFER_BIT, VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT);
 }
 
-DeviceDescription describe(VkPhysicalDevice physical) {
+DeviceDescription describe(const InstanceFunctions& vk, VkPhysicalDevice physical) {
   VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
   VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
   properties.pNext = &driver;
-  vkGetPhysicalDeviceProperties2(physical, &properties);
+  vk.vkGetPhysicalDeviceProperties2(physical, &properties);
   DeviceDescription description;
   description.name = properties.properties.deviceName;
   description.type = typeName(properties.properties.deviceType);
@@ -114,20 +115,20 @@ DeviceDescription describe(VkPhysicalDevice physical) {
     return description;
   }
   Features features;
-  vkGetPhysicalDeviceFeatures2(physical, &features.core);
+  vk.vkGetPhysicalDeviceFeatures2(physical, &features.core);
   for (const auto& needed : kNeeded) {
     if (needed.in(features) == VK_FALSE) description.missing.emplace_back(needed.name);
   }
-  if (findMainFamily(queueFamilies(physical)) < 0)
+  if (findMainFamily(queueFamilies(vk, physical)) < 0)
     description.missing.emplace_back("a queue for graphics and compute with timestamps");
   return description;
 }
 
-std::vector<VkPhysicalDevice> enumerate(VkInstance instance) {
+std::vector<VkPhysicalDevice> enumerate(const VulkanInstance& instance) {
   uint32_t count = 0;
-  vkEnumeratePhysicalDevices(instance, &count, nullptr);
+  instance.vk().vkEnumeratePhysicalDevices(instance.handle(), &count, nullptr);
   std::vector<VkPhysicalDevice> devices(count);
-  vkEnumeratePhysicalDevices(instance, &count, devices.data());
+  instance.vk().vkEnumeratePhysicalDevices(instance.handle(), &count, devices.data());
   devices.resize(count);
   return devices;
 }
@@ -155,7 +156,7 @@ std::string join(const std::vector<std::string>& words) {
 std::vector<DeviceDescription> listDevices() {
   const VulkanInstance instance(false);
   std::vector<DeviceDescription> list;
-  for (VkPhysicalDevice device : enumerate(instance.handle())) list.push_back(describe(device));
+  for (VkPhysicalDevice device : enumerate(instance)) list.push_back(describe(instance.vk(), device));
   return list;
 }
 
@@ -166,17 +167,17 @@ Device::Device(const DeviceOptions& options) : instance_(options.validation) {
 
 Device::~Device() {
   if (device_ != VK_NULL_HANDLE) {
-    table_.vkDeviceWaitIdle(device_);
-    table_.vkDestroyDevice(device_, nullptr);
+    functions_->vkDeviceWaitIdle(device_);
+    functions_->vkDestroyDevice(device_, nullptr);
   }
 }
 
 void Device::choose(const std::string& select) {
-  const auto devices = enumerate(instance_.handle());
+  const auto devices = enumerate(instance_);
   std::string names;
   std::string refused;
   for (std::size_t i = 0; i < devices.size(); ++i) {
-    const auto description = describe(devices[i]);
+    const auto description = describe(instance_.vk(), devices[i]);
     names += (names.empty() ? "" : "; ") + std::to_string(i) + ": " + description.name;
     if (!select.empty() && !matches(select, i, description)) continue;
     if (!description.missing.empty()) {
@@ -199,7 +200,7 @@ void Device::choose(const std::string& select) {
 }
 
 void Device::chooseQueues() {
-  const auto families = queueFamilies(physical_);
+  const auto families = queueFamilies(instance_.vk(), physical_);
   const auto add = [&](const char* name, int family) {
     if (family < 0) return;
     const auto& properties = families[static_cast<std::size_t>(family)];
@@ -216,6 +217,7 @@ void Device::chooseQueues() {
 }
 
 void Device::createDevice() {
+  const InstanceFunctions& vk = instance_.vk();
   chooseQueues();
   const float priority = 1.0f;
   std::vector<VkDeviceQueueCreateInfo> queueInfos;
@@ -228,7 +230,7 @@ void Device::createDevice() {
   }
 
   Features available;
-  vkGetPhysicalDeviceFeatures2(physical_, &available.core);
+  vk.vkGetPhysicalDeviceFeatures2(physical_, &available.core);
   Features wanted;
   for (const auto& needed : kNeeded) needed.in(wanted) = VK_TRUE;
   // Welcome, not needed.
@@ -238,33 +240,34 @@ void Device::createDevice() {
   info.pNext = &wanted.core;
   info.queueCreateInfoCount = static_cast<uint32_t>(queueInfos.size());
   info.pQueueCreateInfos = queueInfos.data();
-  check(vkCreateDevice(physical_, &info, nullptr, &device_), "vkCreateDevice");
-  volkLoadDeviceTable(&table_, device_);
+  check(vk.vkCreateDevice(physical_, &info, nullptr, &device_), "vkCreateDevice");
+  functions_ =
+      std::make_unique<const DeviceFunctions>(deviceFunctions(instance_.loader(), vk, instance_.handle(), device_));
   for (DeviceQueue& queue : queues_) {
-    table_.vkGetDeviceQueue(device_, queue.family, 0, &queue.handle);
+    functions_->vkGetDeviceQueue(device_, queue.family, 0, &queue.handle);
     setName(VK_OBJECT_TYPE_QUEUE, reinterpret_cast<uint64_t>(queue.handle), queue.name);
   }
 
   VkPhysicalDeviceProperties properties;
-  vkGetPhysicalDeviceProperties(physical_, &properties);
+  vk.vkGetPhysicalDeviceProperties(physical_, &properties);
   limits_ = properties.limits;
-  vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
+  vk.vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
 }
 
 VkResult Device::submit(uint32_t queue, const VkSubmitInfo2& submission, VkFence fence) const {
   const std::scoped_lock lock(submission_);
-  return table_.vkQueueSubmit2(queues_[queue].handle, 1, &submission, fence);
+  return functions_->vkQueueSubmit2(queues_[queue].handle, 1, &submission, fence);
 }
 
 void Device::setName(VkObjectType type, uint64_t object, std::string_view name) const {
   // Names cost the driver memory and are read only under validation and debuggers, which load the same extension.
-  if (vkSetDebugUtilsObjectNameEXT == nullptr || object == 0) return;
+  if (functions_->vkSetDebugUtilsObjectNameEXT == nullptr || object == 0) return;
   const std::string terminated(name);
   VkDebugUtilsObjectNameInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT};
   info.objectType = type;
   info.objectHandle = object;
   info.pObjectName = terminated.c_str();
-  vkSetDebugUtilsObjectNameEXT(device_, &info);
+  functions_->vkSetDebugUtilsObjectNameEXT(device_, &info);
 }
 
 }  // namespace lensgraph::engine

@@ -12,6 +12,8 @@
 
 namespace lensgraph::engine {
 
+struct DeviceFunctions;
+
 struct DeviceOptions {
   /// Index in listDevices(), or part of a device's name (any case). Empty: the most capable usable device
   /// (discrete, then integrated, virtual, CPU).
@@ -53,10 +55,10 @@ class Device {
   /// The first does everything; then, from families without graphics, one for compute and one that only copies, where
   /// the device has such families.
   const std::vector<DeviceQueue>& queues() const { return queues_; }
-  uint32_t queueFamily() const { return queues_.front().family; }
   /// vkQueueSubmit2 of one batch, by index in queues(). From any thread: Vulkan wants one at a time.
   VkResult submit(uint32_t queue, const VkSubmitInfo2& submission, VkFence fence = VK_NULL_HANDLE) const;
-  const VolkDeviceTable& vk() const { return table_; }
+  /// The functions to call with this device, its queues and command buffers: vulkan_functions.h.
+  const DeviceFunctions& vk() const { return *functions_; }
   const VkPhysicalDeviceLimits& limits() const { return limits_; }
   const VkPhysicalDeviceMemoryProperties& memory() const { return memory_; }
 
@@ -77,7 +79,7 @@ class Device {
   VkDevice device_ = VK_NULL_HANDLE;
   std::vector<DeviceQueue> queues_;
   mutable std::mutex submission_;
-  VolkDeviceTable table_{};
+  std::unique_ptr<const DeviceFunctions> functions_;
   VkPhysicalDeviceLimits limits_{};
   VkPhysicalDeviceMemoryProperties memory_{};
 };

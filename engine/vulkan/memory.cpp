@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "engine/vulkan/vulkan_functions.h"
+
 namespace lensgraph::engine {
 namespace {
 

@@ -9,6 +9,7 @@
 #include <mutex>
 
 #include "engine/vulkan/raster_pipeline.h"
+#include "engine/vulkan/vulkan_functions.h"
 
 namespace lensgraph::engine {
 namespace {

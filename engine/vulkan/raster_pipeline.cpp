@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/vulkan/pipelines.h"
+#include "engine/vulkan/vulkan_functions.h"
 
 namespace lensgraph::engine {
 namespace {

@@ -1,5 +1,4 @@
-// The one translation unit that holds volk, and names for Vulkan's results.
-#define VOLK_IMPLEMENTATION
+// Names for Vulkan's results, and the errors made of them.
 #include "engine/vulkan/vulkan_api.h"
 
 #include <string>

@@ -1,7 +1,8 @@
-// Vulkan as the engine sees it: volk's function tables, one check for results, one owner for handles.
+// Vulkan as the engine sees it: its types, one check for results, one owner for handles. No functions: those are in
+// vulkan_functions.h.
 #pragma once
 
-#include <volk.h>
+#include <vulkan/vulkan_core.h>
 
 #include <string>
 #include <string_view>

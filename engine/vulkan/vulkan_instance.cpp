@@ -5,6 +5,8 @@
 #include <cstring>
 #include <mutex>
 
+#include "engine/vulkan/vulkan_functions.h"
+
 namespace lensgraph::engine {
 namespace {
 
@@ -19,22 +21,22 @@ VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
   return VK_FALSE;
 }
 
-bool hasLayer(const char* name) {
+bool hasLayer(const LoaderFunctions& vk, const char* name) {
   uint32_t count = 0;
-  vkEnumerateInstanceLayerProperties(&count, nullptr);
+  vk.vkEnumerateInstanceLayerProperties(&count, nullptr);
   std::vector<VkLayerProperties> layers(count);
-  vkEnumerateInstanceLayerProperties(&count, layers.data());
+  vk.vkEnumerateInstanceLayerProperties(&count, layers.data());
   for (const auto& layer : layers) {
     if (std::strcmp(layer.layerName, name) == 0) return true;
   }
   return false;
 }
 
-bool hasExtension(const char* name) {
+bool hasExtension(const LoaderFunctions& vk, const char* name) {
   uint32_t count = 0;
-  vkEnumerateInstanceExtensionProperties(nullptr, &count, nullptr);
+  vk.vkEnumerateInstanceExtensionProperties(nullptr, &count, nullptr);
   std::vector<VkExtensionProperties> extensions(count);
-  vkEnumerateInstanceExtensionProperties(nullptr, &count, extensions.data());
+  vk.vkEnumerateInstanceExtensionProperties(nullptr, &count, extensions.data());
   for (const auto& extension : extensions) {
     if (std::strcmp(extension.extensionName, name) == 0) return true;
   }
@@ -58,13 +60,8 @@ VulkanInstance::VulkanInstance(bool validation) {
 }
 
 void VulkanInstance::create(bool validation) {
-  if (volkInitialize() != VK_SUCCESS) {
-    throwDeviceError("no Vulkan loader found (libvulkan.so.1)", "install the package libvulkan1");
-  }
-  if (volkGetInstanceVersion() < VK_API_VERSION_1_3) {
-    throwDeviceError("the Vulkan loader is older than version 1.3", "update the package libvulkan1");
-  }
-  if (validation && !hasLayer(kValidationLayer)) {
+  loader_ = std::make_unique<const LoaderFunctions>(loadVulkan());
+  if (validation && !hasLayer(*loader_, kValidationLayer)) {
     throwDeviceError("validation was asked for, but VK_LAYER_KHRONOS_validation is not installed",
                      "install the package vulkan-validationlayers");
   }
@@ -78,7 +75,7 @@ void VulkanInstance::create(bool validation) {
   VkInstanceCreateInfo info{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
   info.pApplicationInfo = &application;
   const char* extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
-  if (hasExtension(extension)) {
+  if (hasExtension(*loader_, extension)) {
     info.enabledExtensionCount = 1;
     info.ppEnabledExtensionNames = &extension;
   }
@@ -95,17 +92,17 @@ void VulkanInstance::create(bool validation) {
     info.enabledLayerCount = 1;
     info.ppEnabledLayerNames = &kValidationLayer;
   }
-  check(vkCreateInstance(&info, nullptr, &instance_), "vkCreateInstance");
-  volkLoadInstanceOnly(instance_);
+  check(loader_->vkCreateInstance(&info, nullptr, &instance_), "vkCreateInstance");
+  functions_ = std::make_unique<const InstanceFunctions>(instanceFunctions(*loader_, instance_));
   if (validation) {
-    check(vkCreateDebugUtilsMessengerEXT(instance_, &messenger, nullptr, &messenger_),
+    check(functions_->vkCreateDebugUtilsMessengerEXT(instance_, &messenger, nullptr, &messenger_),
           "vkCreateDebugUtilsMessengerEXT");
   }
 }
 
 VulkanInstance::~VulkanInstance() {
-  if (messenger_ != VK_NULL_HANDLE) vkDestroyDebugUtilsMessengerEXT(instance_, messenger_, nullptr);
-  if (instance_ != VK_NULL_HANDLE) vkDestroyInstance(instance_, nullptr);
+  if (messenger_ != VK_NULL_HANDLE) functions_->vkDestroyDebugUtilsMessengerEXT(instance_, messenger_, nullptr);
+  if (instance_ != VK_NULL_HANDLE) functions_->vkDestroyInstance(instance_, nullptr);
 }
 
 }  // namespace lensgraph::engine
