@@ -2,7 +2,8 @@
 #pragma once
 
 #include "engine/draw/scene_gpu.h"
-#include "engine/draw/scene_renderer.h"
+#include "engine/scene/scene.h"
+#include "engine/scene/viewpoint.h"
 #include "shaders/shared/scene.h"
 
 namespace lensgraph::engine {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <glm/gtc/matrix_inverse.hpp>
 
 #include "engine/draw/scene_constants.h"
 #include "engine/vulkan/command_buffers.h"

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <array>
-#include <glm/mat4x4.hpp>
-#include <glm/vec3.hpp>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -14,19 +12,13 @@
 #include "engine/draw/scene_gpu.h"
 #include "engine/graph/graph_backend.h"
 #include "engine/scene/scene.h"
+#include "engine/scene/viewpoint.h"
 #include "engine/vulkan/memory.h"
 #include "shaders/shared/emit.h"
 #include "shaders/shared/scene.h"
 #include "shaders/shared/view.h"
 
 namespace lensgraph::engine {
-
-/// What of a view does not depend on the lens point.
-struct SceneViewpoint {
-  glm::dmat4 viewFromWorld{1.0};
-  double metersPerUnit = 1.0;  ///< View space is in metres.
-  bool lit = false;            ///< Shaded, or the materials' own radiance.
-};
 
 struct SceneDrawRequest {
   shared::SceneEmit emit = shared::SceneEmit::opaqueRadiance;

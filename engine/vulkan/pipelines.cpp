@@ -1,4 +1,4 @@
-// Pipeline creation and the stores behind it.
+// Looks up pipelines, layouts and samplers by their key, and makes those that are not there yet.
 #include "engine/vulkan/pipelines.h"
 
 #include <array>
@@ -9,6 +9,7 @@
 #include <mutex>
 
 #include "engine/vulkan/raster_pipeline.h"
+#include "engine/vulkan/shader_module.h"
 #include "engine/vulkan/vulkan_functions.h"
 
 namespace lensgraph::engine {
@@ -64,15 +65,6 @@ VkDescriptorType descriptorTypeOf(BindingKind kind) {
       return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
   }
   return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-}
-
-Unique<VkShaderModule> makeShaderModule(const Device& device, rendergraph::SpirV code, const std::string& name) {
-  VkShaderModuleCreateInfo info{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
-  info.codeSize = code.size_bytes();
-  info.pCode = code.data();
-  VkShaderModule module = VK_NULL_HANDLE;
-  check(device.vk().vkCreateShaderModule(device.handle(), &info, nullptr, &module), "vkCreateShaderModule " + name);
-  return {device.handle(), module, device.vk().vkDestroyShaderModule};
 }
 
 std::filesystem::path defaultPipelineCacheFile(const Device& device) {

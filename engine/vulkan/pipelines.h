@@ -73,8 +73,6 @@ class PipelineStore {
   std::deque<std::pair<rendergraph::SamplerDesc, Unique<VkSampler>>> samplers_;
 };
 
-Unique<VkShaderModule> makeShaderModule(const Device& device, rendergraph::SpirV code, const std::string& name);
-
 /// $XDG_CACHE_HOME/lensgraph/ (or ~/.cache/lensgraph/) and a file name of device and driver; empty without a home.
 std::filesystem::path defaultPipelineCacheFile(const Device& device);
 

@@ -1,9 +1,9 @@
-// Graphics pipeline creation.
+// Turns a RasterPipelineDesc into Vulkan's create-info structs and makes the pipeline.
 #include "engine/vulkan/raster_pipeline.h"
 
 #include <vector>
 
-#include "engine/vulkan/pipelines.h"
+#include "engine/vulkan/shader_module.h"
 #include "engine/vulkan/vulkan_functions.h"
 
 namespace lensgraph::engine {
