@@ -128,11 +128,11 @@ VkImage GraphBackend::createImage(const rendergraph::ImageRequest& request, rend
   auto info = imageCreateInfo(request.desc, request.usage);
   share(info, request.concurrent);
   VkImage image = VK_NULL_HANDLE;
-  require(device_.vk().vkCreateImage(device_.handle(), &info, nullptr, &image), "vkCreateImage", request.name);
+  checkForGraph(device_.vk().vkCreateImage(device_.handle(), &info, nullptr, &image), "vkCreateImage", request.name);
   const VkResult bound =
       device_.vk().vkBindImageMemory(device_.handle(), image, heaps_.at(heap).block.memory.get(), offset);
   if (bound != VK_SUCCESS) destroyImage(image);
-  require(bound, "vkBindImageMemory", request.name);
+  checkForGraph(bound, "vkBindImageMemory", request.name);
   device_.setName(VK_OBJECT_TYPE_IMAGE, reinterpret_cast<uint64_t>(image), request.name);
   return image;
 }
@@ -142,7 +142,7 @@ rendergraph::DedicatedImage GraphBackend::createDedicatedImage(const rendergraph
   auto info = imageCreateInfo(request.desc, request.usage);
   share(info, request.concurrent);
   VkImage made = VK_NULL_HANDLE;
-  require(vk.vkCreateImage(device_.handle(), &info, nullptr, &made), "vkCreateImage", request.name);
+  checkForGraph(vk.vkCreateImage(device_.handle(), &info, nullptr, &made), "vkCreateImage", request.name);
   Unique<VkImage> image(device_.handle(), made, vk.vkDestroyImage);
   VkMemoryRequirements needs;
   vk.vkGetImageMemoryRequirements(device_.handle(), made, &needs);
@@ -153,8 +153,8 @@ rendergraph::DedicatedImage GraphBackend::createDedicatedImage(const rendergraph
   if (bound != VK_SUCCESS) {
     image.reset();
     destroyHeap(heap);
-    throwGraphError(bound, "vkBindImageMemory", request.name);
   }
+  checkForGraph(bound, "vkBindImageMemory", request.name);
   device_.setName(VK_OBJECT_TYPE_IMAGE, reinterpret_cast<uint64_t>(made), request.name);
   return {heap, image.release()};
 }
@@ -170,11 +170,11 @@ VkBuffer GraphBackend::createBuffer(const rendergraph::BufferRequest& request, r
   auto info = bufferCreateInfo(request.desc.size, request.usage | request.desc.extraUsage);
   share(info, request.concurrent);
   VkBuffer buffer = VK_NULL_HANDLE;
-  require(device_.vk().vkCreateBuffer(device_.handle(), &info, nullptr, &buffer), "vkCreateBuffer", request.name);
+  checkForGraph(device_.vk().vkCreateBuffer(device_.handle(), &info, nullptr, &buffer), "vkCreateBuffer", request.name);
   const VkResult bound =
       device_.vk().vkBindBufferMemory(device_.handle(), buffer, heaps_.at(heap).block.memory.get(), offset);
   if (bound != VK_SUCCESS) destroyBuffer(buffer);
-  require(bound, "vkBindBufferMemory", request.name);
+  checkForGraph(bound, "vkBindBufferMemory", request.name);
   device_.setName(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<uint64_t>(buffer), request.name);
   return buffer;
 }
@@ -184,7 +184,7 @@ rendergraph::DedicatedBuffer GraphBackend::createDedicatedBuffer(const rendergra
   auto info = bufferCreateInfo(request.desc.size, request.usage | request.desc.extraUsage);
   share(info, request.concurrent);
   VkBuffer made = VK_NULL_HANDLE;
-  require(vk.vkCreateBuffer(device_.handle(), &info, nullptr, &made), "vkCreateBuffer", request.name);
+  checkForGraph(vk.vkCreateBuffer(device_.handle(), &info, nullptr, &made), "vkCreateBuffer", request.name);
   Unique<VkBuffer> buffer(device_.handle(), made, vk.vkDestroyBuffer);
   VkMemoryRequirements needs;
   vk.vkGetBufferMemoryRequirements(device_.handle(), made, &needs);
@@ -195,8 +195,8 @@ rendergraph::DedicatedBuffer GraphBackend::createDedicatedBuffer(const rendergra
   if (bound != VK_SUCCESS) {
     buffer.reset();
     destroyHeap(heap);
-    throwGraphError(bound, "vkBindBufferMemory", request.name);
   }
+  checkForGraph(bound, "vkBindBufferMemory", request.name);
   device_.setName(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<uint64_t>(made), request.name);
   return {heap, buffer.release()};
 }
@@ -215,7 +215,7 @@ VkImageView GraphBackend::createView(const rendergraph::ViewDesc& desc, std::str
   info.subresourceRange = {desc.range.aspects, desc.range.firstMip, desc.range.mipCount, desc.range.firstLayer,
                            desc.range.layerCount};
   VkImageView view = VK_NULL_HANDLE;
-  require(device_.vk().vkCreateImageView(device_.handle(), &info, nullptr, &view), "vkCreateImageView", name);
+  checkForGraph(device_.vk().vkCreateImageView(device_.handle(), &info, nullptr, &view), "vkCreateImageView", name);
   device_.setName(VK_OBJECT_TYPE_IMAGE_VIEW, reinterpret_cast<uint64_t>(view), name);
   return view;
 }

@@ -15,7 +15,7 @@ GraphBackend::CommandStream GraphBackend::beginCommands(RecorderId recorder) {
 }
 
 void GraphBackend::endCommands(const CommandStream& commands) {
-  require(device_.vk().vkEndCommandBuffer(commands.buffer), "vkEndCommandBuffer");
+  checkForGraph(device_.vk().vkEndCommandBuffer(commands.buffer), "vkEndCommandBuffer");
 }
 
 void GraphBackend::barrier(const CommandStream& commands, const VkDependencyInfo& dependency) {

@@ -36,7 +36,8 @@ VkSemaphore GraphBackend::createTimeline(std::string_view name) {
   type.semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE;
   VkSemaphoreCreateInfo info{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, &type};
   VkSemaphore semaphore = VK_NULL_HANDLE;
-  require(device_.vk().vkCreateSemaphore(device_.handle(), &info, nullptr, &semaphore), "vkCreateSemaphore", name);
+  checkForGraph(device_.vk().vkCreateSemaphore(device_.handle(), &info, nullptr, &semaphore), "vkCreateSemaphore",
+                name);
   device_.setName(VK_OBJECT_TYPE_SEMAPHORE, reinterpret_cast<uint64_t>(semaphore), name);
   return semaphore;
 }
@@ -48,7 +49,8 @@ void GraphBackend::destroyTimeline(VkSemaphore timeline) {
 
 uint64_t GraphBackend::timelineValue(VkSemaphore timeline) {
   uint64_t value = 0;
-  require(device_.vk().vkGetSemaphoreCounterValue(device_.handle(), timeline, &value), "vkGetSemaphoreCounterValue");
+  checkForGraph(device_.vk().vkGetSemaphoreCounterValue(device_.handle(), timeline, &value),
+                "vkGetSemaphoreCounterValue");
   return value;
 }
 
@@ -60,7 +62,7 @@ Unique<VkFence> GraphBackend::takeFence() {
   }
   const VkFenceCreateInfo info{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
   VkFence fence = VK_NULL_HANDLE;
-  require(device_.vk().vkCreateFence(device_.handle(), &info, nullptr, &fence), "vkCreateFence");
+  checkForGraph(device_.vk().vkCreateFence(device_.handle(), &info, nullptr, &fence), "vkCreateFence");
   device_.setName(VK_OBJECT_TYPE_FENCE, reinterpret_cast<uint64_t>(fence), "graph submission");
   return {device_.handle(), fence, device_.vk().vkDestroyFence};
 }
@@ -77,18 +79,18 @@ void GraphBackend::waitTimelines(const VkSemaphoreWaitInfo& wait) {
   for (SentFence& sent : sent_) {
     if (!sent.fence || !isWaitedFor(sent)) continue;
     const VkFence fence = sent.fence.get();
-    require(device_.vk().vkWaitForFences(device_.handle(), 1, &fence, VK_TRUE, UINT64_MAX), "vkWaitForFences");
-    require(device_.vk().vkResetFences(device_.handle(), 1, &fence), "vkResetFences");
+    checkForGraph(device_.vk().vkWaitForFences(device_.handle(), 1, &fence, VK_TRUE, UINT64_MAX), "vkWaitForFences");
+    checkForGraph(device_.vk().vkResetFences(device_.handle(), 1, &fence), "vkResetFences");
     fences_.push_back(std::move(sent.fence));
   }
   std::erase_if(sent_, [](const SentFence& sent) { return !sent.fence; });
-  require(device_.vk().vkWaitSemaphores(device_.handle(), &wait, UINT64_MAX), "vkWaitSemaphores");
+  checkForGraph(device_.vk().vkWaitSemaphores(device_.handle(), &wait, UINT64_MAX), "vkWaitSemaphores");
 }
 
 void GraphBackend::submit(uint32_t queue, const VkSubmitInfo2& submission) {
   sent_.reserve(sent_.size() + 1);  // So that nothing throws once the device has it.
   Unique<VkFence> fence = takeFence();
-  require(device_.submit(queue, submission, fence.get()), "vkQueueSubmit2");
+  checkForGraph(device_.submit(queue, submission, fence.get()), "vkQueueSubmit2");
   const VkSemaphoreSubmitInfo& signal = submission.pSignalSemaphoreInfos[0];
   sent_.push_back({signal.semaphore, signal.value, std::move(fence)});
 }
@@ -99,7 +101,7 @@ VkEvent GraphBackend::createEvent(std::string_view name) {
   // Not DEVICE_ONLY: the host unsets it once the frame has finished, which costs the device nothing.
   const VkEventCreateInfo info{VK_STRUCTURE_TYPE_EVENT_CREATE_INFO};
   VkEvent event = VK_NULL_HANDLE;
-  require(device_.vk().vkCreateEvent(device_.handle(), &info, nullptr, &event), "vkCreateEvent", name);
+  checkForGraph(device_.vk().vkCreateEvent(device_.handle(), &info, nullptr, &event), "vkCreateEvent", name);
   device_.setName(VK_OBJECT_TYPE_EVENT, reinterpret_cast<uint64_t>(event), name);
   return event;
 }
@@ -109,7 +111,7 @@ void GraphBackend::destroyEvent(VkEvent event) {
 }
 
 void GraphBackend::resetEvent(VkEvent event) {
-  require(device_.vk().vkResetEvent(device_.handle(), event), "vkResetEvent");
+  checkForGraph(device_.vk().vkResetEvent(device_.handle(), event), "vkResetEvent");
 }
 
 // ---- Time
@@ -127,7 +129,7 @@ VkQueryPool GraphBackend::createTimestamps(uint32_t count, std::string_view name
   info.queryType = VK_QUERY_TYPE_TIMESTAMP;
   info.queryCount = count;
   VkQueryPool pool = VK_NULL_HANDLE;
-  require(device_.vk().vkCreateQueryPool(device_.handle(), &info, nullptr, &pool), "vkCreateQueryPool", name);
+  checkForGraph(device_.vk().vkCreateQueryPool(device_.handle(), &info, nullptr, &pool), "vkCreateQueryPool", name);
   device_.setName(VK_OBJECT_TYPE_QUERY_POOL, reinterpret_cast<uint64_t>(pool), name);
   resetTimestamps(pool, count);
   return pool;
@@ -142,10 +144,10 @@ void GraphBackend::resetTimestamps(VkQueryPool pool, uint32_t count) {
 }
 
 void GraphBackend::readTimestamps(VkQueryPool pool, uint32_t first, std::span<uint64_t> ticks) {
-  require(device_.vk().vkGetQueryPoolResults(device_.handle(), pool, first, static_cast<uint32_t>(ticks.size()),
-                                             ticks.size_bytes(), ticks.data(), sizeof(uint64_t),
-                                             VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
-          "vkGetQueryPoolResults", "timestamps");
+  checkForGraph(device_.vk().vkGetQueryPoolResults(device_.handle(), pool, first, static_cast<uint32_t>(ticks.size()),
+                                                   ticks.size_bytes(), ticks.data(), sizeof(uint64_t),
+                                                   VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+                "vkGetQueryPoolResults", "timestamps");
 }
 
 }  // namespace lensgraph::engine

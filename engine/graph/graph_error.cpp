@@ -1,4 +1,4 @@
-// Kinds of failure and what to do about them.
+// Turns an error of the engine into the graph's kind of failure, with what to do about it.
 #include "engine/graph/graph_error.h"
 
 namespace lensgraph::engine {
@@ -26,24 +26,17 @@ const char* remedyOf(Misuse misuse) {
   return "";
 }
 
-[[noreturn]] void raise(Misuse misuse, std::string reason, std::string_view resource) {
-  throw rendergraph::GraphError({{.misuse = misuse,
-                                  .pass = {},
-                                  .resource = std::string(resource),
-                                  .reason = std::move(reason),
-                                  .remedy = remedyOf(misuse),
-                                  .where = {}}});
-}
-
 }  // namespace
-
-void throwGraphError(VkResult result, std::string_view what, std::string_view resource) {
-  raise(misuseOf(result), std::string(what) + " failed: " + std::string(nameOf(result)), resource);
-}
 
 void rethrowAsGraphError(const Error& error, std::string_view resource) {
   const auto* vulkan = dynamic_cast<const VulkanError*>(&error);
-  raise(vulkan != nullptr ? misuseOf(vulkan->result()) : Misuse::device, error.what(), resource);
+  const Misuse misuse = vulkan != nullptr ? misuseOf(vulkan->result()) : Misuse::device;
+  throw rendergraph::GraphError({{.misuse = misuse,
+                                  .pass = {},
+                                  .resource = std::string(resource),
+                                  .reason = error.what(),
+                                  .remedy = remedyOf(misuse),
+                                  .where = {}}});
 }
 
 }  // namespace lensgraph::engine

@@ -9,18 +9,10 @@
 
 namespace lensgraph::engine {
 
-/// Throws GraphError (outOfMemory, deviceLost, device) "what failed: VK_ERROR_…".
-[[noreturn]] void throwGraphError(VkResult result, std::string_view what, std::string_view resource);
-
-/// Throws the same unless the result is VK_SUCCESS.
-inline void require(VkResult result, std::string_view what, std::string_view resource = {}) {
-  if (result != VK_SUCCESS) throwGraphError(result, what, resource);
-}
-
-/// The GraphError that stands for an error of the engine.
+/// Throws the GraphError (outOfMemory, deviceLost, device) that stands for an error of the engine.
 [[noreturn]] void rethrowAsGraphError(const Error& error, std::string_view resource);
 
-/// Runs work(); errors of the engine become errors of the graph.
+/// Runs work(); errors of the engine become errors of the graph that name the resource.
 template <class Work>
 decltype(auto) withGraphErrors(std::string_view resource, Work&& work) {
   try {
@@ -28,6 +20,11 @@ decltype(auto) withGraphErrors(std::string_view resource, Work&& work) {
   } catch (const Error& error) {
     rethrowAsGraphError(error, resource);
   }
+}
+
+/// check() for the graph's backend: throws GraphError "what failed: VK_ERROR_…" unless the result is VK_SUCCESS.
+inline void checkForGraph(VkResult result, std::string_view what, std::string_view resource = {}) {
+  withGraphErrors(resource, [&] { check(result, what); });
 }
 
 }  // namespace lensgraph::engine

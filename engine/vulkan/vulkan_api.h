@@ -22,8 +22,10 @@ class VulkanError : public Error {
   VkResult result_;
 };
 
-/// Throws VulkanError "what failed: VK_ERROR_…" unless the result is VK_SUCCESS.
+/// Throws VulkanError "what failed: VK_ERROR_…" unless the result is VK_SUCCESS. The graph's backend
+/// calls checkForGraph() (graph_error.h) instead, which throws the same as a GraphError.
 void check(VkResult result, std::string_view what);
+/// The name in Vulkan's headers; VK_ERROR_UNKNOWN for results that the engine never meets.
 std::string_view nameOf(VkResult result);
 
 /// Throws engine::Error (kind failed) with a reason and a remedy.
