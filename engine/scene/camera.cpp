@@ -1,10 +1,13 @@
-// Look-at and file cameras to viewFromWorld. See camera.h for conventions.
+// Computes viewFromWorld from a look-at or from a camera of a file. See camera.h for conventions.
 #include "engine/scene/camera.h"
 
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
+#include <optional>
 #include <string>
 
 #include "engine/error.h"
@@ -12,25 +15,32 @@
 namespace lensgraph::engine {
 namespace {
 
-// Below this sine of the angle between axis and up, the roll of the camera is rounding noise.
-constexpr double kMinUpSine = 1e-9;
+// Below this sine of the angle between axis and up, rounding decides about the roll of the camera.
+constexpr double kMinUpSine = 1e-6;
 
-[[noreturn]] void fail(const char* field, const std::string& reason, const std::string& remedy = {}) {
+[[noreturn]] void fail(const std::string& field, const std::string& reason, const std::string& remedy = {}) {
   throw Error(ErrorParts{.file = {}, .field = field, .reason = reason, .remedy = remedy});
 }
 
-void requireFinite(const char* field, const glm::dvec3& v) {
-  if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z)) fail(field, "is not finite");
+bool isFinite(const glm::dvec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-// A direction of unit length without the overflow and underflow of squaring: scales by the largest component
-// first.
-glm::dvec3 direction(const char* field, const glm::dvec3& v, const char* zeroReason) {
+/// A direction of unit length without the overflow and underflow of squaring: the vector is scaled by its largest
+/// component first. Nothing when it has no direction, because it is zero or not finite.
+std::optional<glm::dvec3> direction(const glm::dvec3& v) {
   const double largest = std::fmax(std::fabs(v.x), std::fmax(std::fabs(v.y), std::fabs(v.z)));
-  if (!(largest > 0.0)) fail(field, zeroReason);
-  if (!std::isfinite(largest)) fail(field, "is too far away");
+  if (!(largest > 0.0) || !std::isfinite(largest)) return std::nullopt;
   // A denormal divisor would overflow 1/largest, the quotient itself does not.
   return glm::normalize(v / largest);
+}
+
+/// The camera's right side, from where it looks and roughly up; nothing when these two are parallel.
+std::optional<glm::dvec3> rightOf(const glm::dvec3& forward, const glm::dvec3& up) {
+  const glm::dvec3 side = glm::cross(forward, up);
+  const double sine = glm::length(side);
+  if (!(sine > kMinUpSine)) return std::nullopt;
+  return side / sine;
 }
 
 // Rows are the camera's axes: right, up, backward.
@@ -49,24 +59,38 @@ glm::dvec3 Camera::position() const {
   return -(glm::transpose(rotation) * glm::dvec3(viewFromWorld[3]));
 }
 
-Camera cameraFromLookAt(const LookAt& lookAt, double nearPlane) {
-  requireFinite("camera.position", lookAt.position);
-  requireFinite("camera.target", lookAt.target);
-  requireFinite("camera.up", lookAt.up);
+std::optional<LookAtProblem> findProblem(const LookAt& lookAt) {
+  const auto problem = [](const char* field, const char* reason, const char* remedy = "") {
+    return LookAtProblem{.field = field, .reason = reason, .remedy = remedy};
+  };
+  if (!isFinite(lookAt.position)) return problem("position", "is not finite");
+  if (!isFinite(lookAt.target)) return problem("target", "is not finite");
+  if (!isFinite(lookAt.up)) return problem("up", "is not finite");
   if (!(lookAt.fovyDeg > 0.0 && lookAt.fovyDeg < 180.0)) {
-    fail("camera.fovyDeg", std::to_string(lookAt.fovyDeg) + " is not inside (0, 180)", "give it in degrees");
+    std::array<char, 64> reason{};
+    std::snprintf(reason.data(), reason.size(), "is %g, must be above 0 and below 180 degrees", lookAt.fovyDeg);
+    return problem("fovyDeg", reason.data());
   }
-  if (!(nearPlane > 0.0) || !std::isfinite(nearPlane)) fail("camera.nearPlane", "is not a positive length");
+  const glm::dvec3 axis = lookAt.target - lookAt.position;
+  const auto forward = direction(axis);
+  if (!forward) {
+    if (!isFinite(axis)) return problem("target", "is too far away");
+    return problem("target", "is the camera's position: there is no direction to look in", "look at another point");
+  }
+  const auto up = direction(lookAt.up);
+  if (!up) return problem("up", "is zero", "usually it is [0, 1, 0]");
+  if (!rightOf(*forward, *up)) {
+    return problem("up", "is parallel to the direction of view", "choose an up vector across it");
+  }
+  return std::nullopt;
+}
 
-  const glm::dvec3 forward = direction("camera.target", lookAt.target - lookAt.position,
-                                       "is the camera's position: there is no direction to look in");
-  const glm::dvec3 upHint = direction("camera.up", lookAt.up, "is zero");
-  const glm::dvec3 side = glm::cross(forward, upHint);
-  const double sine = glm::length(side);
-  if (!(sine > kMinUpSine)) {
-    fail("camera.up", "is parallel to the direction of view", "choose an up vector across it");
-  }
-  const glm::dvec3 right = side / sine;
+Camera cameraFromLookAt(const LookAt& lookAt, double nearPlane) {
+  if (const auto problem = findProblem(lookAt)) fail("camera." + problem->field, problem->reason, problem->remedy);
+  if (!(nearPlane > 0.0) || !std::isfinite(nearPlane)) fail("camera.nearPlane", "is not a positive length");
+  // The directions exist: findProblem() looked for them.
+  const glm::dvec3 forward = direction(lookAt.target - lookAt.position).value();
+  const glm::dvec3 right = rightOf(forward, direction(lookAt.up).value()).value();
   Camera camera;
   camera.viewFromWorld = viewFromAxes(right, glm::cross(right, forward), -forward, lookAt.position);
   camera.fovy = lookAt.fovyDeg * (3.14159265358979323846 / 180.0);
@@ -87,15 +111,14 @@ Camera cameraFromScene(const Scene& scene, std::string_view name) {
   }
   const glm::dmat4& world = found->worldFromCamera;
   // Columns may be scaled, sheared or mirrored; the view keeps backward, then up, and is right-handed again.
-  const glm::dvec3 back = direction("camera.gltfCamera", glm::dvec3(world[2]), "has a transform without a direction");
-  const glm::dvec3 upHint =
-      direction("camera.gltfCamera", glm::dvec3(world[1]), "has a transform without an up direction");
-  const glm::dvec3 side = glm::cross(upHint, back);
-  const double sine = glm::length(side);
-  if (!(sine > kMinUpSine)) fail("camera.gltfCamera", "has a degenerate transform");
-  const glm::dvec3 right = side / sine;
+  const auto back = direction(glm::dvec3(world[2]));
+  if (!back) fail("camera.gltfCamera", "has a transform without a direction");
+  const auto up = direction(glm::dvec3(world[1]));
+  if (!up) fail("camera.gltfCamera", "has a transform without an up direction");
+  const auto right = rightOf(-*back, *up);
+  if (!right) fail("camera.gltfCamera", "has a degenerate transform");
   Camera camera;
-  camera.viewFromWorld = viewFromAxes(right, glm::cross(back, right), back, glm::dvec3(world[3]));
+  camera.viewFromWorld = viewFromAxes(*right, glm::cross(*back, *right), *back, glm::dvec3(world[3]));
   camera.fovy = found->yfov;
   camera.nearPlane = found->znear;
   return camera;

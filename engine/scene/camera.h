@@ -1,13 +1,15 @@
 // The pinhole camera of a shot. Right-handed view space, looking down −Z, viewDepth = −z_view.
 //
 // Matrices are double: shots stand at coordinates around 1e6, where a float metre has 6 cm steps. Multiply
-// viewFromWorld · worldFromObject in double and round the product. Lens and projection are elsewhere
-// (lens.h).
+// viewFromWorld · worldFromObject in double and round the product. The lens is not part of it
+// (passes/lens/physical_lens.h), nor is the projection.
 #pragma once
 
 #include <cstdint>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
+#include <string>
 #include <string_view>
 
 #include "engine/scene/scene.h"
@@ -32,8 +34,19 @@ struct LookAt {
   double fovyDeg = 40.0;               ///< In (0, 180).
 };
 
-/// Throws Error (fields named camera.position, camera.target, camera.up, camera.fovyDeg): non-finite numbers,
-/// target at the position, up zero or along the axis, field of view outside (0, 180) degrees.
+/// What keeps a LookAt from being a camera, in words for who wrote it.
+struct LookAtProblem {
+  std::string field;   ///< The member's name: "position", "target", "up" or "fovyDeg".
+  std::string reason;  ///< Continues the field's name: "is zero".
+  std::string remedy;  ///< What to do about it; may be empty.
+};
+
+/// The first problem of a LookAt: non-finite numbers, target at the position, up zero or along the axis, field of view
+/// outside (0, 180) degrees. Nothing when cameraFromLookAt() accepts it.
+std::optional<LookAtProblem> findProblem(const LookAt& lookAt);
+
+/// Throws Error for the LookAt's problem (fields named camera.position, camera.target, …), or for a near plane that is
+/// not a positive length.
 Camera cameraFromLookAt(const LookAt& lookAt, double nearPlane = kDefaultNearPlane);
 
 /// The scene's camera of that name (glTF camera's name, else its node's name). Scale in its transform is

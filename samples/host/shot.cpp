@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -59,20 +58,8 @@ void parseLookAt(const JsonNode& node, ShotCamera& camera) {
   camera.position = node.at("position", "write [x, y, z], or \"gltfCamera\": name").vector("[x, y, z]");
   camera.target = node.at("target", "write [x, y, z], a point to look at").vector("[x, y, z]");
   if (const auto up = node.find("up")) camera.up = up->vector("[x, y, z]");
-  const auto fovy = node.at("fovyDeg", "write the vertical field of view in degrees");
-  camera.fovyDeg = fovy.number();
-  if (!(camera.fovyDeg > 0.0 && camera.fovyDeg < 180.0)) {
-    fovy.fail("is " + fovy.json().dump() + ", must be above 0 and below 180 degrees");
-  }
-  const glm::dvec3 axis = camera.target - camera.position;
-  if (!(glm::length(axis) > 0.0)) node.failAt("target", "is at the position", "look at another point");
-  const double upLength = glm::length(camera.up);
-  if (!(upLength > 0.0)) node.failAt("up", "is zero", "usually [0, 1, 0]");
-  // Below this sine rounding decides where up is.
-  constexpr double kLeastSine = 1e-6;
-  if (!(glm::length(glm::cross(glm::normalize(axis), camera.up / upLength)) > kLeastSine)) {
-    node.failAt("up", "is along the viewing direction", "choose another direction for up");
-  }
+  camera.fovyDeg = node.at("fovyDeg", "write the vertical field of view in degrees").number();
+  if (const auto problem = engine::findProblem(camera)) node.failAt(problem->field, problem->reason, problem->remedy);
 }
 
 ShotCamera parseCamera(const JsonNode& node) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/scene/camera.h"
 #include "passes/lens/physical_lens.h"
 #include "passes/parameters.h"
 
@@ -24,13 +25,9 @@ struct ScenePart {
   glm::dvec3 scale{1.0};
 };
 
-struct ShotCamera {
-  glm::dvec3 position{0.0};
-  glm::dvec3 target{0.0, 0.0, -1.0};
-  glm::dvec3 up{0.0, 1.0, 0.0};
-  double fovyDeg = 40.0;                  ///< 0 < fovy < 180.
-  double nearPlane = 0.01;                ///< m, > 0.
-  std::optional<std::string> gltfCamera;  ///< Replaces position, target, up and fovy.
+struct ShotCamera : engine::LookAt {
+  double nearPlane = engine::kDefaultNearPlane;  ///< m, > 0.
+  std::optional<std::string> gltfCamera;         ///< Replaces position, target, up and fovy.
 };
 
 enum class Shading { unlit, lit };

@@ -26,11 +26,7 @@ engine::Camera shotCamera(const Shot& shot, const engine::Scene& scene) {
     camera.nearPlane *= shot.lens.metersPerUnit;
     return camera;
   }
-  return engine::cameraFromLookAt({.position = shot.camera.position,
-                                   .target = shot.camera.target,
-                                   .up = shot.camera.up,
-                                   .fovyDeg = shot.camera.fovyDeg},
-                                  shot.camera.nearPlane);
+  return engine::cameraFromLookAt(shot.camera, shot.camera.nearPlane);
 }
 
 engine::FloatImage withOpaqueAlpha(const engine::FloatImage& picture) {

@@ -77,8 +77,10 @@ TEST(Camera, RefusesWhatHasNoDirection) {
               testing::StartsWith("camera.target: is the camera's position"));
   EXPECT_THAT(errorOf({.up = {0, 0, 0}}), testing::StartsWith("camera.up: is zero"));
   EXPECT_THAT(errorOf({.up = {0, 0, 3}}), testing::StartsWith("camera.up: is parallel"));
+  EXPECT_THAT(errorOf({.up = {0, 1e-7, 1}}), testing::StartsWith("camera.up: is parallel"));
+  EXPECT_EQ(errorOf({.up = {0, 1e-5, 1}}), "no error");
   EXPECT_THAT(errorOf({.position = {nan, 0, 0}}), testing::StartsWith("camera.position: is not finite"));
-  EXPECT_THAT(errorOf({.fovyDeg = 0}), testing::StartsWith("camera.fovyDeg: "));
+  EXPECT_EQ(errorOf({.fovyDeg = 0}), "camera.fovyDeg: is 0, must be above 0 and below 180 degrees");
   EXPECT_THAT(errorOf({.fovyDeg = 180}), testing::StartsWith("camera.fovyDeg: "));
   EXPECT_THAT(errorOf({.fovyDeg = nan}), testing::StartsWith("camera.fovyDeg: "));
 }
