@@ -1,4 +1,4 @@
-// Conversion to shader constants.
+// Computes matrices, lights and rotation in double from the scene and its viewpoint, and rounds them to shader constants.
 #include "engine/draw/scene_constants.h"
 
 #include <algorithm>

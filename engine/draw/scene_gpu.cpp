@@ -1,4 +1,4 @@
-// Upload of a scene.
+// Turns a scene's meshes, materials and pictures into buffers, images and descriptor sets, and sorts its draws.
 #include "engine/draw/scene_gpu.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// Descriptor set 0: the scene; set 1: a material's textures; set 2: what the emit writes to.
+// Makes the pipeline of each emit when it is first asked for, and records the scene's draws with it. Descriptor set 0 is
+// the scene, set 1 a material's textures, set 2 what the emit writes to.
 #include "engine/draw/scene_renderer.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Checks the JSON of a glTF file before tinygltf sees it. Private to scene_gltf.
+// Checks the JSON of a glTF file before tinygltf sees it. Private to engine/gltf.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -8,7 +8,7 @@ namespace lensgraph::engine::gltf {
 
 /// Throws Error naming the field for the first member of a wrong type, missing, of a wrong length, or an
 /// index out of range of the array that it points into. Whole numbers written as 3.0 become integers. Knows
-/// the members that scene_gltf uses; others are not looked at.
+/// the members that engine/gltf uses; others are not looked at.
 void checkStructure(nlohmann::json& root, const std::string& file);
 
 }  // namespace lensgraph::engine::gltf

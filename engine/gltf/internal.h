@@ -1,4 +1,4 @@
-// What the scene_gltf files share: the parsed document and the steps from it to a scene. Private to them.
+// What the files of engine/gltf share: the parsed document and the steps from it to a scene. Private to them.
 #pragma once
 
 #include <tiny_gltf.h>

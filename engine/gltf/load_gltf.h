@@ -1,12 +1,13 @@
-// Loads glTF 2.0 (.gltf, .glb) into a scene. The scene_gltf files are the only users of tinygltf.
+// Loads glTF 2.0 (.gltf, .glb) into a scene. The files of engine/gltf are the only users of tinygltf.
 //
 // Read: node hierarchy, triangles, strips and fans, indexed or not; sparse, normalised, interleaved and
 // quantised accessors (KHR_mesh_quantization); metallic-roughness, emissive
 // (KHR_materials_emissive_strength), unlit (KHR_materials_unlit), alpha modes; textures, samplers, two UV
-// sets, KHR_texture_transform; vertex colours; perspective cameras; KHR_lights_punctual; embedded and
-// external buffers and images. Not read, with a warning: animations, skins, morph targets (the rest pose is
-// drawn), points and lines, orthographic cameras, UV sets above 1, other extensions in extensionsUsed. Other
-// extensions in extensionsRequired are an error.
+// sets, KHR_texture_transform; vertex colours; skins, in the pose that the file's nodes give their joints
+// (with a warning); perspective cameras; KHR_lights_punctual; embedded and external buffers and images. Not read, with a
+// warning: animations and morph targets (the pose without them is drawn), points and lines, orthographic
+// cameras, UV sets above 1, other extensions in extensionsUsed. Other extensions in extensionsRequired are an
+// error.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Bounds, validity and flat normals of a scene. No file formats here.
+// Computes bounds and flat normals of a scene, and finds what is wrong with it. No file formats here.
 #include "engine/scene/scene.h"
 
 #include <cmath>

@@ -1,4 +1,5 @@
-// Command recording and staging uploads.
+// Hands out command buffers, submits one-off work and waits for it, and copies bytes to the device through staging
+// memory.
 #include "engine/vulkan/command_buffers.h"
 
 #include <algorithm>

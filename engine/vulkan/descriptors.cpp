@@ -1,4 +1,4 @@
-// Pools of descriptor sets, and their content.
+// Allocates sets from pools of fixed size, adding a pool when all are full, and writes resolved bindings into sets.
 #include "engine/vulkan/descriptors.h"
 
 #include "engine/vulkan/vulkan_functions.h"

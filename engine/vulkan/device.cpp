@@ -1,4 +1,5 @@
-// Device selection and creation. The features asked for are those that the graph and the techniques need.
+// Chooses a physical device by the user's wish and by what the graph and the techniques need (kNeeded), and makes the
+// device with its queues.
 #include "engine/vulkan/device.h"
 
 #include <algorithm>

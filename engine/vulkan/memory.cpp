@@ -1,4 +1,4 @@
-// Memory type selection and allocation.
+// Chooses a memory type for a kind of memory, allocates it, and makes buffers and images with memory of their own.
 #include "engine/vulkan/memory.h"
 
 #include <algorithm>

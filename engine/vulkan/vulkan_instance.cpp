@@ -1,4 +1,4 @@
-// VulkanInstance creation and the validation messenger.
+// Makes the instance, with the validation layer and its messenger when they are asked for.
 #include "engine/vulkan/vulkan_instance.h"
 
 #include <cstdlib>
