@@ -14,6 +14,7 @@
 
 namespace lensgraph::engine {
 
+/// Choices that change how the backend allocates, never what a frame looks like.
 struct GraphBackendOptions {
   /// Memory of their own also for resources for which the driver merely prefers it. Off: where it demands it only. The
   /// driver's wish is for large attachments as a rule, those that the graph's aliasing saves most with, and what it
@@ -33,6 +34,7 @@ class GraphBackend final : public rendergraph::Backend {
   ~GraphBackend() override;
 
   const Device& device() const { return device_; }
+  /// Pipelines, set layouts and samplers of this backend, for recordings that make their own.
   PipelineStore& pipelines() { return pipelines_; }
   /// A set with `bindings` as bindings 0, 1, …, which lives until the frame that the stream belongs to has finished.
   VkDescriptorSet transientSet(const CommandStream& commands, VkDescriptorSetLayout layout,

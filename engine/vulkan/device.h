@@ -14,6 +14,7 @@ namespace lensgraph::engine {
 
 struct DeviceFunctions;
 
+/// Which device, and whether it is watched.
 struct DeviceOptions {
   /// Index in listDevices(), or part of a device's name (any case). Empty: the most capable usable device
   /// (discrete, then integrated, virtual, CPU).
@@ -21,6 +22,7 @@ struct DeviceOptions {
   bool validation = false;  ///< Core and synchronization validation; messages in Device::validationLog().
 };
 
+/// A device in words, for lists and errors.
 struct DeviceDescription {
   std::string name;                  ///< As the driver says it.
   std::string type;                  ///< "discrete", "integrated", "virtual", "cpu", "other".
@@ -31,15 +33,18 @@ struct DeviceDescription {
 /// All Vulkan devices of this machine, usable or not, in the loader's order. Throws engine::Error without a loader.
 std::vector<DeviceDescription> listDevices();
 
+/// One queue of a device.
 struct DeviceQueue {
   std::string name;  ///< "graphics", "compute", "transfer".
   VkQueue handle = VK_NULL_HANDLE;
-  uint32_t family = 0;
-  bool graphics = false;
-  bool compute = false;
+  uint32_t family = 0;         ///< Index of its queue family.
+  bool graphics = false;       ///< Whether it draws …
+  bool compute = false;        ///< … and dispatches. Every queue copies.
   uint32_t timestampBits = 0;  ///< Valid bits of its timestamps; 0: it writes none.
 };
 
+/// A VkDevice of its own instance, and what is asked of it again and again. Several may be alive at once. Const
+/// functions may be called from any thread.
 class Device {
  public:
   /// Throws engine::Error when no device fits, naming what the best candidate lacks.
@@ -59,6 +64,7 @@ class Device {
   VkResult submit(uint32_t queue, const VkSubmitInfo2& submission, VkFence fence = VK_NULL_HANDLE) const;
   /// The functions to call with this device, its queues and command buffers: vulkan_functions.h.
   const DeviceFunctions& vk() const { return *functions_; }
+  /// The physical device's limits and memory types, asked for once.
   const VkPhysicalDeviceLimits& limits() const { return limits_; }
   const VkPhysicalDeviceMemoryProperties& memory() const { return memory_; }
 

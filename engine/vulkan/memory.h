@@ -32,16 +32,18 @@ struct GpuBuffer {
 GpuBuffer makeBuffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage, rendergraph::MemoryKind kind,
                      const std::string& name);
 
-/// A two-dimensional image with its own memory and a view of all of it.
+/// A two-dimensional image with its own memory and a view of all of it, all mips and layers.
 struct GpuImage {
   MemoryBlock block;
   Unique<VkImage> image;
   Unique<VkImageView> view;
   rendergraph::ImageDesc desc;
 };
+/// Makes it in device memory, with undefined content and layout. Throws engine::Error.
 GpuImage makeImage(const Device& device, const rendergraph::ImageDesc& desc, VkImageUsageFlags usage,
                    const std::string& name);
 
+/// Vulkan's description of an image of the graph (its extraUsage included) and of a buffer; for one queue family.
 VkImageCreateInfo imageCreateInfo(const rendergraph::ImageDesc& desc, VkImageUsageFlags usage);
 VkBufferCreateInfo bufferCreateInfo(VkDeviceSize size, VkBufferUsageFlags usage);
 

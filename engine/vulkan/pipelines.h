@@ -22,6 +22,7 @@ inline constexpr uint32_t kPushConstantBytes = 128;
 /// Stages that see the push constants of every pipeline layout made here.
 inline constexpr VkShaderStageFlags kAllShaderStages = VK_SHADER_STAGE_ALL;
 
+/// What is bound to run a program. Owned by the store.
 struct BoundPipeline {
   VkPipeline pipeline = VK_NULL_HANDLE;
   VkPipelineLayout layout = VK_NULL_HANDLE;
@@ -29,6 +30,7 @@ struct BoundPipeline {
 };
 
 using BindingKind = rendergraph::Binding::Kind;
+/// The descriptor type of a kind of binding; sampled images are combined with their sampler.
 VkDescriptorType descriptorTypeOf(BindingKind kind);
 
 /// Thread-safe: known objects are looked up side by side, new ones are made one at a time. The device outlives it.
@@ -44,13 +46,16 @@ class PipelineStore {
   /// The pipeline of a program for these kinds of bindings and specialization constants 0, 1, ….
   const BoundPipeline& compute(const rendergraph::ComputeProgram& program, std::span<const BindingKind> kinds,
                                std::span<const uint32_t> specialization);
+  /// The same, for dynamic rendering into attachments of these formats and samples.
   const BoundPipeline& raster(const rendergraph::RasterProgram& program, std::span<const BindingKind> kinds,
                               std::span<const uint32_t> specialization, std::span<const VkFormat> colorFormats,
                               VkFormat depthFormat, VkSampleCountFlagBits samples);
 
+  /// A sampler with these settings, without limits of its own to the levels of detail.
   VkSampler sampler(const rendergraph::SamplerDesc& desc);
   /// A set layout whose binding i has kind i, visible to all stages.
   VkDescriptorSetLayout setLayout(std::span<const BindingKind> kinds);
+  /// For pipelines that others make.
   VkPipelineCache cache() const { return cache_.get(); }
 
  private:

@@ -23,6 +23,7 @@ struct RasterPipelineDesc {
   std::span<const VkVertexInputAttributeDescription> vertexAttributes;
 };
 
+/// Throws engine::Error that names the pipeline.
 Unique<VkPipeline> makeRasterPipeline(const Device& device, VkPipelineCache cache, VkPipelineLayout layout,
                                       const RasterPipelineDesc& desc);
 

@@ -16,14 +16,15 @@ namespace lensgraph::engine {
 class VulkanError : public Error {
  public:
   VulkanError(std::string_view what, VkResult result);
+  /// What the call returned.
   VkResult result() const { return result_; }
 
  private:
   VkResult result_;
 };
 
-/// Throws VulkanError "what failed: VK_ERROR_…" unless the result is VK_SUCCESS. The graph's backend
-/// calls checkForGraph() (graph_error.h) instead, which throws the same as a GraphError.
+/// Throws VulkanError "what failed: VK_ERROR_…" unless the result is VK_SUCCESS. The graph's backend calls
+/// checkForGraph() (engine/graph/graph_error.h) instead, which throws the same as a GraphError.
 void check(VkResult result, std::string_view what);
 /// The name in Vulkan's headers; VK_ERROR_UNKNOWN for results that the engine never meets.
 std::string_view nameOf(VkResult result);
@@ -35,6 +36,7 @@ std::string_view nameOf(VkResult result);
 template <class Object>
 class Unique {
  public:
+  /// The Vulkan function that destroys an object of this type.
   using Destroy = void(VKAPI_PTR*)(VkDevice, Object, const VkAllocationCallbacks*);
 
   Unique() = default;
@@ -52,10 +54,12 @@ class Unique {
     return *this;
   }
 
+  /// VK_NULL_HANDLE when there is none.
   Object get() const { return object_; }
   explicit operator bool() const { return object_ != VK_NULL_HANDLE; }
   /// Gives the object up: the caller destroys it.
   Object release() { return std::exchange(object_, VK_NULL_HANDLE); }
+  /// Destroys the object now, if there is one.
   void reset() {
     if (object_ != VK_NULL_HANDLE) destroy_(device_, std::exchange(object_, VK_NULL_HANDLE), nullptr);
   }

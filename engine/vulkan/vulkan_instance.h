@@ -17,6 +17,7 @@ struct ValidationLog {
   std::vector<std::string> messages;
 };
 
+/// One VkInstance with the loader's functions. Several may be alive at once.
 class VulkanInstance {
  public:
   /// Opens the loader and makes an instance.
