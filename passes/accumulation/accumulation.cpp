@@ -6,7 +6,6 @@
 #include "passes/nodes/scene_view.h"
 #include "passes/nodes/view_mean.h"
 #include "passes/pinhole/pinhole.h"
-#include "passes/technique.h"
 
 namespace lensgraph::passes::accumulation {
 namespace {

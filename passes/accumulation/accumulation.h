@@ -10,7 +10,7 @@
 #include "passes/dof_io.h"
 #include "passes/lens/lens_samples.h"
 #include "passes/parameters.h"
-#include "passes/registry/registry.h"
+#include "passes/technique.h"
 
 namespace lensgraph::passes::accumulation {
 

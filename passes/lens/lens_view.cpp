@@ -1,5 +1,6 @@
 // Derivation, in x (y likewise with y down). A point at (x, y, z) in view space, d = -z, is at
-//   p = w/2 + S x/d   px from the left in the pinhole view, and by the lens shear of lens.md at
+//   p = w/2 + S x/d   px from the left in the pinhole view. From the point v of the lens, every point moves by
+//     its signed CoC radius times v (Lee 2009 eq. 3, in vergence), and the pixel by its jitter j:
 //   p' = p + K (V_f - 1/d) v + j.
 // Clip space wants (p' - w/2)·2/w · d, which is linear in (x, z, 1):
 //   x_clip = 2/w (S x + (K V_f v + j) d - K v)

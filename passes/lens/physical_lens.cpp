@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace lensgraph::engine {
+namespace lensgraph::passes {
 namespace {
 
 /// No limit of the blur radius, px. Far above any picture, and its square is still finite in double.
@@ -121,4 +121,4 @@ shared::ApertureShape apertureShape(const Lens& lens) {
   return shape;
 }
 
-}  // namespace lensgraph::engine
+}  // namespace lensgraph::passes

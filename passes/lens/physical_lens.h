@@ -7,7 +7,7 @@
 #include "shaders/shared/aperture.h"
 #include "shaders/shared/lens.h"
 
-namespace lensgraph::engine {
+namespace lensgraph::passes {
 
 /// How the field of view follows the focus.
 enum class FovModel {
@@ -58,4 +58,4 @@ double metersFromSceneUnits(const Lens& lens, double units);
 /// E in metres; 0 when depth of field is off.
 double apertureRadius(const Lens& lens);
 
-}  // namespace lensgraph::engine
+}  // namespace lensgraph::passes

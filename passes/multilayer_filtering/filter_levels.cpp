@@ -1,3 +1,5 @@
+// From the range of |c| in a picture to the levels that show it: which |c| each level shows, how far its cells must reach
+// for the window of the next level, and where they lie in the buffer of cells.
 #include "passes/multilayer_filtering/filter_levels.h"
 
 #include <algorithm>

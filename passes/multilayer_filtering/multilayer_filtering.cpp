@@ -8,7 +8,6 @@
 #include "passes/nodes/scene_view.h"
 #include "passes/nodes/statistics.h"
 #include "passes/pinhole/pinhole.h"
-#include "passes/technique.h"
 
 namespace lensgraph::passes::multilayer_filtering {
 namespace {
@@ -30,6 +29,19 @@ double apertureMoment(const shared::ApertureShape& aperture) {
   return sum / weights;
 }
 
+/// s: lists have 2^s × 2^s pixels for each of the picture's.
+int subpixelSteps(Antialiasing antialiasing) {
+  switch (antialiasing) {
+    case Antialiasing::none:
+      return 0;
+    case Antialiasing::points2x2:
+      return 1;
+    case Antialiasing::points4x4:
+      return 2;
+  }
+  return 0;
+}
+
 FramePlan framePlan(const DofInputs& inputs, const Parameters& parameters) {
   const auto& lens = inputs.lens;
   const auto blur = [&](float vergence) { return double{lens.cocScale} * (lens.focusVergence - vergence); };
@@ -37,7 +49,7 @@ FramePlan framePlan(const DofInputs& inputs, const Parameters& parameters) {
   request.extent = inputs.extent;
   request.nearCoc = std::clamp(-blur(inputs.scene->nearestVergence), 0.0, double{lens.maxCocRadius});
   request.farCoc = std::clamp(blur(inputs.scene->farthestVergence), 0.0, double{lens.maxCocRadius});
-  request.subpixelSteps = static_cast<int>(parameters.antialiasing);
+  request.subpixelSteps = subpixelSteps(parameters.antialiasing);
   request.mipSteps = parameters.mipSteps;
   request.stackSteps = parameters.stackSteps;
   request.border = std::min(parameters.border * std::max(request.nearCoc, request.farCoc),
@@ -110,8 +122,8 @@ uint32_t frameCount(const Parameters&, const DofInputs&) {
 
 DofOutputs declare(rendergraph::Graph& graph, const DofInputs& inputs, const Parameters& parameters) {
   if (inputs.lens.cocScale == 0.0f) {
-    return pinhole::declare(
-        graph, inputs, {.pixelSamples = 1 << (2 * static_cast<int>(parameters.antialiasing)), .viewsPerFrame = 64});
+    return pinhole::declare(graph, inputs,
+                            {.pixelSamples = 1 << (2 * subpixelSteps(parameters.antialiasing)), .viewsPerFrame = 64});
   }
   const FramePlan plan = framePlan(inputs, parameters);
   DofOutputs out;

@@ -10,7 +10,7 @@
 #include "passes/dof_io.h"
 #include "passes/multilayer_filtering/filter_levels.h"
 #include "passes/parameters.h"
-#include "passes/registry/registry.h"
+#include "passes/technique.h"
 
 namespace lensgraph::passes::multilayer_filtering {
 

@@ -10,7 +10,6 @@
 #include "passes/nodes/scene_view.h"
 #include "passes/nodes/statistics.h"
 #include "passes/pinhole/pinhole.h"
-#include "passes/technique.h"
 
 namespace lensgraph::passes::multiview_synthesis {
 namespace {

@@ -8,7 +8,7 @@
 #include "passes/lens/lens_samples.h"
 #include "passes/multiview_synthesis/lens_rays.h"
 #include "passes/parameters.h"
-#include "passes/registry/registry.h"
+#include "passes/technique.h"
 
 namespace lensgraph::passes::multiview_synthesis {
 

@@ -1,3 +1,4 @@
+// One compute pass over the picture, in place.
 #include "passes/nodes/sanitize.h"
 
 #include <array>

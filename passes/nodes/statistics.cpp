@@ -1,3 +1,4 @@
+// One transfer pass that fills the counters with zeros.
 #include "passes/nodes/statistics.h"
 
 #include "shaders/shared/statistics.h"

@@ -8,7 +8,6 @@
 #include "passes/nodes/scene_view.h"
 #include "passes/nodes/statistics.h"
 #include "passes/nodes/view_mean.h"
-#include "passes/technique.h"
 
 namespace lensgraph::passes::pinhole {
 namespace {

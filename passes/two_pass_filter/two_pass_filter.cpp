@@ -6,7 +6,6 @@
 #include <string>
 
 #include "passes/nodes/statistics.h"
-#include "passes/technique.h"
 #include "rendergraph/error.h"
 #include "shaders/shared/statistics.h"
 #include "shaders/shared/two_pass_filter.h"

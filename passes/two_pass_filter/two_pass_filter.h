@@ -8,7 +8,7 @@
 
 #include "passes/dof_io.h"
 #include "passes/parameters.h"
-#include "passes/registry/registry.h"
+#include "passes/technique.h"
 
 namespace lensgraph::passes::two_pass_filter {
 

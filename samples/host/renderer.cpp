@@ -191,17 +191,17 @@ DofInputs Renderer::State::sceneInputs(const Shot& shot) {
   const auto width = static_cast<uint32_t>(shot.width), height = static_cast<uint32_t>(shot.height);
   DofInputs inputs;
   inputs.extent = {width, height};
-  inputs.lens = engine::lensConstants(shot.lens, camera.fovy, shot.height, camera.nearPlane);
-  inputs.aperture = engine::apertureShape(shot.lens);
+  inputs.lens = passes::lensConstants(shot.lens, camera.fovy, shot.height, camera.nearPlane);
+  inputs.aperture = passes::apertureShape(shot.lens);
   inputs.projection.pixelsPerTangent =
-      static_cast<float>(engine::pixelsPerTangent(shot.lens, camera.fovy, shot.height));
+      static_cast<float>(passes::pixelsPerTangent(shot.lens, camera.fovy, shot.height));
   inputs.projection.nearPlane = static_cast<float>(camera.nearPlane);
   inputs.background = shot.background;
 
   renderer->setViewpoint({.viewFromWorld = camera.viewFromWorld,
                           .metersPerUnit = shot.lens.metersPerUnit,
                           .lit = shot.shading == Shading::lit});
-  const engine::LensOpening opening{engine::apertureRadius(shot.lens) * shared::apertureReach(inputs.aperture),
+  const engine::LensOpening opening{passes::apertureRadius(shot.lens) * shared::apertureReach(inputs.aperture),
                                     inputs.lens.focusVergence};
   const auto range = engine::visibleRange(*scene, camera, width, height, opening, shot.lens.metersPerUnit);
   sceneDraw.nearestVergence = range.isEmpty ? 0.0f : static_cast<float>(1.0 / range.nearestDepth);
@@ -341,7 +341,7 @@ rendergraph::Plan Renderer::compile(const Graph& graph, const rendergraph::Compi
 }
 
 Rendering Renderer::apply(const engine::FloatImage& color, const engine::FloatImage& depth, double fovyDeg,
-                          const engine::Lens& lens, const RenderOptions& options) {
+                          const passes::Lens& lens, const RenderOptions& options) {
   const auto& technique = techniqueOf(options);
   if (technique.input != passes::TechniqueInput::image) {
     throw engine::Error("technique '" + options.technique + "' draws a scene; apply works on pictures");
@@ -364,12 +364,12 @@ Rendering Renderer::apply(const engine::FloatImage& color, const engine::FloatIm
   DofInputs inputs;
   inputs.extent = {color.width, color.height};
   const double fovy = fovyDeg * std::numbers::pi / 180.0;
-  inputs.lens = engine::lensConstants(lens, fovy, static_cast<int>(color.height), 1.0);
+  inputs.lens = passes::lensConstants(lens, fovy, static_cast<int>(color.height), 1.0);
   inputs.lens.vergenceScale = 1.0f;
   inputs.lens.vergenceOffset = 0.0f;
-  inputs.aperture = engine::apertureShape(lens);
+  inputs.aperture = passes::apertureShape(lens);
   inputs.projection.pixelsPerTangent =
-      static_cast<float>(engine::pixelsPerTangent(lens, fovy, static_cast<int>(color.height)));
+      static_cast<float>(passes::pixelsPerTangent(lens, fovy, static_cast<int>(color.height)));
   const auto import = [](Graph& graph, const engine::GpuImage& image, const char* name) {
     constexpr rendergraph::AccessState kRest{VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_SHADER_READ_BIT,
                                              VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};

@@ -83,7 +83,7 @@ class Renderer {
   /// A technique of TechniqueInput::image on pictures: color RGB(A) linear, depth one channel of view depth in
   /// metres, same size.
   Rendering apply(const engine::FloatImage& color, const engine::FloatImage& depth, double fovyDeg,
-                  const engine::Lens& lens, const RenderOptions& options);
+                  const passes::Lens& lens, const RenderOptions& options);
 
   /// The graph that render() would execute (first frame), compiled for this device; for dumps.
   void declare(rendergraph::Graph& graph, const Shot& shot, const RenderOptions& options);

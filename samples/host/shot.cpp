@@ -83,20 +83,20 @@ ShotCamera parseCamera(const JsonNode& node) {
 
 struct LensNumber {
   const char* name;
-  double engine::Lens::*member;
+  double passes::Lens::*member;
 };
 constexpr LensNumber kLensNumbers[] = {
-    {"focalLengthMm", &engine::Lens::focalLengthMm},
-    {"fStop", &engine::Lens::fStop},
-    {"sensorWidthMm", &engine::Lens::sensorWidthMm},
-    {"sensorHeightMm", &engine::Lens::sensorHeightMm},
-    {"metersPerUnit", &engine::Lens::metersPerUnit},
-    {"bladeRotation", &engine::Lens::bladeRotation},
-    {"bladeCurvature", &engine::Lens::bladeCurvature},
-    {"anamorphicRatio", &engine::Lens::anamorphicRatio},
-    {"opticalVignetting", &engine::Lens::opticalVignetting},
-    {"sphericalAberration", &engine::Lens::sphericalAberration},
-    {"maxCocRadius", &engine::Lens::maxCocRadius},
+    {"focalLengthMm", &passes::Lens::focalLengthMm},
+    {"fStop", &passes::Lens::fStop},
+    {"sensorWidthMm", &passes::Lens::sensorWidthMm},
+    {"sensorHeightMm", &passes::Lens::sensorHeightMm},
+    {"metersPerUnit", &passes::Lens::metersPerUnit},
+    {"bladeRotation", &passes::Lens::bladeRotation},
+    {"bladeCurvature", &passes::Lens::bladeCurvature},
+    {"anamorphicRatio", &passes::Lens::anamorphicRatio},
+    {"opticalVignetting", &passes::Lens::opticalVignetting},
+    {"sphericalAberration", &passes::Lens::sphericalAberration},
+    {"maxCocRadius", &passes::Lens::maxCocRadius},
 };
 
 double parseFocusDistance(const JsonNode& node) {
@@ -112,13 +112,13 @@ double parseFocusDistance(const JsonNode& node) {
 
 /// The aperture is given once: as a radius, or as focal length and f-number. With a radius the focal length
 /// still has a meaning where the field of view breathes.
-void parseApertureRadius(const JsonNode& lensNode, engine::Lens& lens) {
+void parseApertureRadius(const JsonNode& lensNode, passes::Lens& lens) {
   const auto radius = lensNode.find("apertureRadius");
   if (!radius) return;
   if (lensNode.has("fStop")) {
     lensNode.failAt("apertureRadius", "given beside fStop, which also sets the aperture", "remove one of them");
   }
-  if (lensNode.has("focalLengthMm") && lens.fovModel == engine::FovModel::pinhole) {
+  if (lensNode.has("focalLengthMm") && lens.fovModel == passes::FovModel::pinhole) {
     lensNode.failAt("apertureRadius", "given beside focalLengthMm, which has no effect then",
                     "remove one of them, or set fovModel to breathing");
   }
@@ -129,18 +129,18 @@ void parseApertureRadius(const JsonNode& lensNode, engine::Lens& lens) {
 }
 
 /// engine/lens's complaint with the value that the file gives: "is -2, must be …".
-[[noreturn]] void failLens(const JsonNode& lensNode, const engine::LensProblem& problem) {
+[[noreturn]] void failLens(const JsonNode& lensNode, const passes::LensProblem& problem) {
   const auto value = lensNode.find(problem.field);
   if (!value) lensNode.failAt(problem.field, problem.reason, problem.remedy);
   const char* joint = problem.reason.starts_with("must") ? ", " : ": ";
   value->fail("is " + value->json().dump() + joint + problem.reason, problem.remedy);
 }
 
-engine::Lens parseLens(const JsonNode& node) {
+passes::Lens parseLens(const JsonNode& node) {
   node.requireObject({"apertureRadius", "focalLengthMm", "fStop", "sensorWidthMm", "sensorHeightMm", "focusDistance",
                       "metersPerUnit", "fovModel", "bladeCount", "bladeRotation", "bladeCurvature", "anamorphicRatio",
                       "opticalVignetting", "sphericalAberration", "maxCocRadius"});
-  engine::Lens lens;
+  passes::Lens lens;
   for (const auto& [name, member] : kLensNumbers) {
     if (const auto value = node.find(name)) lens.*member = value->number();
   }
@@ -150,11 +150,11 @@ engine::Lens parseLens(const JsonNode& node) {
     if (text != "pinhole" && text != "breathing") {
       model->fail("is \"" + text + "\", must be \"pinhole\" or \"breathing\"");
     }
-    lens.fovModel = text == "breathing" ? engine::FovModel::breathing : engine::FovModel::pinhole;
+    lens.fovModel = text == "breathing" ? passes::FovModel::breathing : passes::FovModel::pinhole;
   }
   lens.focusDistance = parseFocusDistance(node.at("focusDistance", "write metres, or \"infinity\""));
   parseApertureRadius(node, lens);
-  const auto problems = engine::validate(lens);
+  const auto problems = passes::validate(lens);
   if (!problems.empty()) failLens(node, problems.front());
   return lens;
 }

@@ -36,7 +36,7 @@ struct Shot {
   std::string name;
   std::vector<ScenePart> scene;
   ShotCamera camera;
-  engine::Lens lens;
+  passes::Lens lens;
   int width = 640, height = 360;                         ///< px, 1…kMaxResolution.
   std::array<float, 3> background = {0.0f, 0.0f, 0.0f};  ///< Linear radiance.
   std::optional<std::filesystem::path> environment;

@@ -66,7 +66,7 @@ json captureJson(const engine::DeviceDescription& device, const CaptureInput& in
       {"inputHash", hashOfFiles(input.files)},
       {"resolution", {rendering.color.width, rendering.color.height}},
       {"lens",
-       {{"apertureRadius", engine::apertureRadius(*input.lens)}, {"focusDistance", toJson(input.lens->focusDistance)}}},
+       {{"apertureRadius", passes::apertureRadius(*input.lens)}, {"focusDistance", toJson(input.lens->focusDistance)}}},
       {"technique", {{"name", choice.name}, {"parameters", std::move(parameters)}}},
       {"executions", rendering.executions},
       {"gpuMs", toJson(rendergraph::spreadOf(measurement.gpuMs))},

@@ -39,7 +39,7 @@ struct Measurement {
 struct CaptureInput {
   std::string source;                        ///< The shot file, or the colour picture.
   std::vector<std::filesystem::path> files;  ///< What the hash covers.
-  const engine::Lens* lens = nullptr;
+  const passes::Lens* lens = nullptr;
 };
 
 /// What the program's capture files say that they are, in their fields "format" and "formatVersion".

@@ -14,7 +14,7 @@ namespace {
   throw engine::Error({.file = "command line", .field = field, .reason = reason, .remedy = remedy});
 }
 
-/// The option that sets a member of engine::Lens.
+/// The option that sets a member of passes::Lens.
 std::string optionOf(const std::string& lensField) {
   if (lensField == "focalLengthMm") return "--focal-length-mm";
   if (lensField == "fStop") return "--fstop";
@@ -22,8 +22,8 @@ std::string optionOf(const std::string& lensField) {
   return lensField;
 }
 
-engine::Lens lensOf(const ApplyArguments& arguments) {
-  engine::Lens lens;
+passes::Lens lensOf(const ApplyArguments& arguments) {
+  passes::Lens lens;
   lens.focusDistance = arguments.focusDistance;
   if (arguments.apertureRadius) {
     lens.apertureRadius = *arguments.apertureRadius;
@@ -36,7 +36,7 @@ engine::Lens lensOf(const ApplyArguments& arguments) {
   } else {
     failUsage("apply", "no aperture given", "give --aperture-radius, or --focal-length-mm and --fstop");
   }
-  const auto problems = engine::validate(lens);
+  const auto problems = passes::validate(lens);
   if (!problems.empty()) {
     failUsage(optionOf(problems.front().field), problems.front().reason, problems.front().remedy);
   }
@@ -61,7 +61,7 @@ int runApply(const ApplyArguments& arguments, const GlobalArguments& global) {
   if (!(arguments.fovyDeg > 0.0 && arguments.fovyDeg < 180.0)) {
     failUsage("--fovy", "must be above 0 and below 180 degrees", "");
   }
-  const engine::Lens lens = lensOf(arguments);
+  const passes::Lens lens = lensOf(arguments);
   Looks looks(arguments.look);
   if (!arguments.output.empty()) checkOutput(arguments.output, "--output", kPictureExtensions);
   std::vector<OutputFile> files = looks.outputs();

@@ -112,7 +112,7 @@ TEST_P(LawsOfApply, BrokenPixelsOfAPictureDoNotComeOut) {
   engine::FloatImage color(33, 17, 3, 0.5f), depth(33, 17, 1, 4.0f);
   color.pixel(7, 5)[1] = std::numeric_limits<float>::quiet_NaN();
   color.pixel(20, 3)[0] = std::numeric_limits<float>::infinity();
-  engine::Lens lens;
+  passes::Lens lens;
   lens.apertureRadius = GetParam();
   lens.focusDistance = 2.0;
   host::Renderer renderer(support::device());

@@ -65,7 +65,7 @@ TEST_F(ShotFile, TakesDefaultsForWhatIsAbsent) {
   EXPECT_EQ(shot.camera.up, glm::dvec3(0, 1, 0));
   EXPECT_EQ(shot.camera.nearPlane, 0.01);
   EXPECT_EQ(shot.lens.apertureRadius, 0.03);
-  EXPECT_EQ(shot.lens.fovModel, engine::FovModel::pinhole);
+  EXPECT_EQ(shot.lens.fovModel, passes::FovModel::pinhole);
   ASSERT_EQ(shot.scene.size(), 1u);
   EXPECT_EQ(shot.scene[0].scale, glm::dvec3(1));
 }
@@ -117,7 +117,7 @@ TEST_F(ShotFile, ReadsEveryLensField) {
   EXPECT_EQ(lens.sensorHeightMm, 23);
   EXPECT_EQ(lens.focusDistance, 3);
   EXPECT_EQ(lens.metersPerUnit, 0.01);
-  EXPECT_EQ(lens.fovModel, engine::FovModel::breathing);
+  EXPECT_EQ(lens.fovModel, passes::FovModel::breathing);
   EXPECT_EQ(lens.bladeCount, 7);
   EXPECT_EQ(lens.bladeRotation, 0.5);
   EXPECT_EQ(lens.bladeCurvature, 0.25);

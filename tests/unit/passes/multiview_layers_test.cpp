@@ -20,7 +20,7 @@ std::vector<SceneLayer> layersOf(std::vector<VergenceInterval> occupied, const L
   return sceneLayers(occupied, spacing);
 }
 
-// lens.md: M = ceil(K (V_near - V_far) / δ), bounds evenly spaced in vergence from the near side.
+// Lee 2009 §4.1: M = ceil(K (V_near - V_far) / δ), bounds evenly spaced in vergence from the near side.
 TEST(SceneLayers, AreEvenInVergence) {
   const auto layers = layersOf({{0.25f, 2.25f}}, {.pixelsPerVergence = 20.0, .travel = 4.0});
   ASSERT_EQ(layers.size(), 11u);  // ten, and a little for rounding

@@ -14,8 +14,8 @@ namespace lensgraph {
 
 namespace {
 
-using engine::FovModel;
-using engine::Lens;
+using passes::FovModel;
+using passes::Lens;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -23,7 +23,7 @@ constexpr double kFovy = 40.0 * std::numbers::pi / 180.0;
 
 std::vector<std::string> badFields(const Lens& lens) {
   std::vector<std::string> fields;
-  for (const auto& problem : engine::validate(lens)) {
+  for (const auto& problem : passes::validate(lens)) {
     EXPECT_FALSE(problem.reason.empty());
     EXPECT_FALSE(problem.remedy.empty());
     fields.push_back(problem.field);
@@ -47,7 +47,7 @@ float cocThroughDepthBuffer(const shared::LensConstants& constants, double nearP
 }
 
 TEST(Lens, DefaultsAreValid) {
-  EXPECT_TRUE(engine::validate(Lens{}).empty());
+  EXPECT_TRUE(passes::validate(Lens{}).empty());
 }
 
 TEST(Lens, EveryBadFieldIsNamed) {
@@ -85,19 +85,19 @@ TEST(Lens, LegalExtremesAreAccepted) {
   Lens lens;
   for (const double focus : {1e-3, 0.05, 1e7, kInfinity}) {
     lens.focusDistance = focus;
-    EXPECT_TRUE(engine::validate(lens).empty()) << focus;
+    EXPECT_TRUE(passes::validate(lens).empty()) << focus;
   }
   lens = {};
   lens.fStop = 0.0;
   lens.bladeCount = 3;
-  EXPECT_TRUE(engine::validate(lens).empty());
+  EXPECT_TRUE(passes::validate(lens).empty());
 }
 
 TEST(Lens, FocusWithinTheFocalLengthIsAnErrorOnlyWhenBreathing) {
   for (const double focus : {0.05, 0.04}) {
     Lens lens;
     lens.focusDistance = focus;
-    EXPECT_TRUE(engine::validate(lens).empty());
+    EXPECT_TRUE(passes::validate(lens).empty());
     lens.fovModel = FovModel::breathing;
     EXPECT_THAT(badFields(lens), testing::ElementsAre("focusDistance"));
   }
@@ -107,26 +107,26 @@ TEST(Lens, TheApertureIsARadius) {
   Lens lens;
   lens.focalLengthMm = 85.0;
   lens.fStop = 1.4;
-  EXPECT_DOUBLE_EQ(engine::apertureRadius(lens), 0.085 / 1.4 / 2.0);  // Not the diameter F/N.
+  EXPECT_DOUBLE_EQ(passes::apertureRadius(lens), 0.085 / 1.4 / 2.0);  // Not the diameter F/N.
   lens.fStop = 0.0;
-  EXPECT_EQ(engine::apertureRadius(lens), 0.0);
+  EXPECT_EQ(passes::apertureRadius(lens), 0.0);
   lens.apertureRadius = 0.01;  // Given: replaces both, fStop 0 too.
-  EXPECT_EQ(engine::apertureRadius(lens), 0.01);
+  EXPECT_EQ(passes::apertureRadius(lens), 0.01);
   lens.apertureRadius = 0.0;
   lens.fStop = 1.4;
-  EXPECT_EQ(engine::apertureRadius(lens), 0.0);
+  EXPECT_EQ(passes::apertureRadius(lens), 0.0);
 }
 
 TEST(Lens, AnApertureOfZeroIsExactlyOff) {
   Lens lens;
   lens.fStop = 0.0;
-  EXPECT_EQ(engine::lensConstants(lens, kFovy, 1080, 0.1).cocScale, 0.0f);
+  EXPECT_EQ(passes::lensConstants(lens, kFovy, 1080, 0.1).cocScale, 0.0f);
 }
 
 TEST(Lens, FocusAtInfinityIsVergenceZeroAndTheSkyIsSharp) {
   Lens lens;
   lens.focusDistance = kInfinity;
-  const auto constants = engine::lensConstants(lens, kFovy, 1080, 0.1);
+  const auto constants = passes::lensConstants(lens, kFovy, 1080, 0.1);
   EXPECT_EQ(constants.focusVergence, 0.0f);
   EXPECT_EQ(shared::signedCocRadius(constants, shared::vergenceFromDepthBuffer(constants, 0.0f)), 0.0f);
 }
@@ -134,7 +134,7 @@ TEST(Lens, FocusAtInfinityIsVergenceZeroAndTheSkyIsSharp) {
 TEST(Lens, TheCocIsNegativeInFrontAndPositiveBehind) {
   Lens lens;
   lens.focusDistance = 3.0;
-  const auto constants = engine::lensConstants(lens, kFovy, 1080, 0.1);
+  const auto constants = passes::lensConstants(lens, kFovy, 1080, 0.1);
   EXPECT_LT(cocThroughDepthBuffer(constants, 0.1, 2.0), 0.0f);
   EXPECT_GT(cocThroughDepthBuffer(constants, 0.1, 4.0), 0.0f);
 }
@@ -146,11 +146,11 @@ TEST(Lens, AWorkedExample) {
   lens.fStop = 1.4;
   lens.focusDistance = 3.0;
   const double fovy = 2.0 * std::atan(24.0 / (2.0 * 85.0));
-  const auto pinhole = engine::lensConstants(lens, fovy, 1080, 0.1);
+  const auto pinhole = passes::lensConstants(lens, fovy, 1080, 0.1);
   const double radiusOnSensor = 85.0 * (85.0 / 2.8) / 3000.0;  // mm, with the sensor at F
   EXPECT_NEAR(shared::signedCocRadius(pinhole, 0.0f), radiusOnSensor / 24.0 * 1080.0, 1e-4);
   lens.fovModel = FovModel::breathing;
-  const auto breathing = engine::lensConstants(lens, fovy, 1080, 0.1);
+  const auto breathing = passes::lensConstants(lens, fovy, 1080, 0.1);
   EXPECT_NEAR(static_cast<double>(breathing.cocScale) / static_cast<double>(pinhole.cocScale), 3.0 / (3.0 - 0.085),
               1e-6);  // 2.9 %
 }
@@ -159,19 +159,19 @@ TEST(Lens, BreathingIsFiniteAtInfinityAndIgnoresFovy) {
   Lens lens;
   lens.fovModel = FovModel::breathing;
   lens.focusDistance = kInfinity;
-  EXPECT_DOUBLE_EQ(engine::pixelsPerTangent(lens, 0.1, 1000), 0.05 * 1000 / 0.024);
-  EXPECT_EQ(engine::pixelsPerTangent(lens, 0.1, 1000), engine::pixelsPerTangent(lens, 1.0, 1000));
+  EXPECT_DOUBLE_EQ(passes::pixelsPerTangent(lens, 0.1, 1000), 0.05 * 1000 / 0.024);
+  EXPECT_EQ(passes::pixelsPerTangent(lens, 0.1, 1000), passes::pixelsPerTangent(lens, 1.0, 1000));
 }
 
 TEST(Lens, FovyBelongsToTheWholeHeight) {
-  EXPECT_NEAR(engine::pixelsPerTangent(Lens{}, std::numbers::pi / 2.0, 1000), 500.0, 1e-9);
+  EXPECT_NEAR(passes::pixelsPerTangent(Lens{}, std::numbers::pi / 2.0, 1000), 500.0, 1e-9);
 }
 
 TEST(Lens, ALimitIsAFractionOfTheHeightAndOffByDefault) {
   Lens lens;
-  EXPECT_EQ(engine::lensConstants(lens, kFovy, 1000, 0.1).maxCocRadius, 1e30f);
+  EXPECT_EQ(passes::lensConstants(lens, kFovy, 1000, 0.1).maxCocRadius, 1e30f);
   lens.maxCocRadius = 0.01;
-  const auto constants = engine::lensConstants(lens, kFovy, 1000, 0.1);
+  const auto constants = passes::lensConstants(lens, kFovy, 1000, 0.1);
   EXPECT_EQ(constants.maxCocRadius, 10.0f);
   EXPECT_EQ(shared::signedCocRadius(constants, 1e4f), -10.0f);
 }
@@ -182,7 +182,7 @@ TEST(Lens, SceneUnitsMeetTheLensAtTheNearPlane) {
   lens.metersPerUnit = 0.01;
   lens.focusDistance = 3.0;
   const double nearUnits = 10.0, depthUnits = 450.0;
-  const auto constants = engine::lensConstants(lens, kFovy, 1080, engine::metersFromSceneUnits(lens, nearUnits));
+  const auto constants = passes::lensConstants(lens, kFovy, 1080, passes::metersFromSceneUnits(lens, nearUnits));
   const float z = static_cast<float>(nearUnits / depthUnits);
   EXPECT_NEAR(shared::vergenceFromDepthBuffer(constants, z), 1.0f / 4.5f, 1e-6f);
   EXPECT_NEAR(shared::signedCocRadius(constants, shared::vergenceFromDepthBuffer(constants, z)),
@@ -198,7 +198,7 @@ TEST(Lens, TheDepthBufferGivesTheCocOverAllExtremes) {
         Lens lens;
         lens.focusDistance = focus;
         lens.fStop = fStop;
-        const auto constants = engine::lensConstants(lens, kFovy, 1080, nearPlane);
+        const auto constants = passes::lensConstants(lens, kFovy, 1080, nearPlane);
         for (double depth = nearPlane; depth < 1e9; depth *= 1.7) {
           const long double exact = exactCoc(lens, kFovy, 1080, depth);
           const long double larger =
@@ -223,8 +223,8 @@ TEST(Lens, NearFocusTheErrorStaysBelowItsBound) {
     lens.focusDistance = std::pow(10.0, -3.0 + 10.0 * unit(random));
     const double nearPlane = std::min(lens.focusDistance * 0.5, std::pow(10.0, -4.0 + 3.0 * unit(random)));
     const double depth = lens.focusDistance * (0.98 + 0.04 * unit(random));
-    const auto constants = engine::lensConstants(lens, kFovy, 1080, nearPlane);
-    const long double scale = 0.5L * 1080 / std::tan(0.5L * kFovy) * engine::apertureRadius(lens);
+    const auto constants = passes::lensConstants(lens, kFovy, 1080, nearPlane);
+    const long double scale = 0.5L * 1080 / std::tan(0.5L * kFovy) * passes::apertureRadius(lens);
     const auto coc = static_cast<long double>(cocThroughDepthBuffer(constants, nearPlane, depth));
     worst =
         std::max(worst, std::abs(coc - exactCoc(lens, kFovy, 1080, depth)) / (scale / lens.focusDistance * 0x1p-23L));
@@ -241,8 +241,8 @@ TEST(Lens, NoExtremeMakesNaNOrInfinity) {
         Lens lens;
         lens.focusDistance = focus;
         lens.fStop = fStop;
-        ASSERT_TRUE(engine::validate(lens).empty());
-        const auto constants = engine::lensConstants(lens, kFovy, 16384, nearPlane);
+        ASSERT_TRUE(passes::validate(lens).empty());
+        const auto constants = passes::lensConstants(lens, kFovy, 16384, nearPlane);
         for (const float z : {0.0f, 1e-38f, 0.5f, 1.0f}) {
           EXPECT_TRUE(std::isfinite(shared::signedCocRadius(constants, shared::vergenceFromDepthBuffer(constants, z))));
         }
@@ -259,7 +259,7 @@ TEST(Lens, TheApertureShapeIsTaken) {
   lens.anamorphicRatio = 1.5;
   lens.opticalVignetting = 0.3;
   lens.sphericalAberration = -0.5;
-  const auto shape = engine::apertureShape(lens);
+  const auto shape = passes::apertureShape(lens);
   EXPECT_EQ(shape.bladeCount, 7u);
   EXPECT_NEAR(shape.bladeRotation, 0.25f, 1e-6f);
   EXPECT_EQ(shape.bladeCurvature, 0.5f);
