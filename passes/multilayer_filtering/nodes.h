@@ -5,7 +5,7 @@
 
 #include "passes/dof_io.h"
 #include "passes/multilayer_filtering/filter_levels.h"
-#include "passes/multilayer_filtering/multilayer_filtering.h"
+#include "passes/multilayer_filtering/parameters.h"
 #include "rendergraph/graph.h"
 
 namespace lensgraph::passes::multilayer_filtering {

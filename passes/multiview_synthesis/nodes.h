@@ -8,7 +8,7 @@
 
 #include "passes/dof_io.h"
 #include "passes/multiview_synthesis/lens_rays.h"
-#include "passes/multiview_synthesis/multiview_synthesis.h"
+#include "passes/multiview_synthesis/parameters.h"
 #include "rendergraph/graph.h"
 #include "shaders/shared/emit.h"
 

@@ -123,8 +123,8 @@ void planAttachments(const Declaration& declaration, const Cells& cells, const C
       continue;
     }
     Rendering rendering(declaration, cells, cellUses, step);
-    for (uint32_t index = pass.firstAccess; index != kNone; index = declaration.accesses[index].nextOfPass) {
-      if (declaration.accesses[index].role != AttachmentRole::none) rendering.add(index);
+    for (const DeclaredAccess& access : declaration.accessesOfPass(planned.pass)) {
+      if (access.role != AttachmentRole::none) rendering.add(declaration.numberOf(access));
     }
     rendering.appendTo(plan, planned);
   }

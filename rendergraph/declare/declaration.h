@@ -171,6 +171,8 @@ struct Declaration {
   /// Destroys the recordings, forgets everything, keeps the memory, and takes a new serial number.
   void reset();
 
+  /// Index of an access among `accesses`. Precondition: the reference is to one of them.
+  uint32_t numberOf(const DeclaredAccess& access) const { return static_cast<uint32_t>(&access - accesses.begin()); }
   AccessList<&DeclaredAccess::nextOfPass> accessesOfPass(uint32_t pass) const {
     return {accesses, passes[pass].firstAccess};
   }

@@ -1,3 +1,4 @@
+// Compares every placement with the others of its kind of memory, and says in words with whom it shares bytes and why not.
 #include "rendergraph/memory_notes.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Declares, compiles and packs graphs of three shapes from 10 to 10 000 passes.
 #include "speed.h"
 
 #include <benchmark/benchmark.h>

@@ -1,3 +1,4 @@
+// Turns the JSON of measurements into the Markdown tables of docs/rendergraph_measured.md.
 #include "tables.h"
 
 #include <cstdio>

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <ranges>
 #include <vector>
 
 #include "rendergraph/handle.h"
@@ -22,9 +23,11 @@ class Cells {
 
   /// Cells of all resources together; ids are 0 … count()-1.
   uint32_t count() const { return count_; }
-  /// First cell of a resource; its cells are numbered in a row, aspects outermost, layers innermost.
-  uint32_t firstOf(uint32_t resource) const { return grids_[resource].firstCell; }
-  uint32_t countOf(uint32_t resource) const { return grids_[resource].count(); }
+  /// Ids of the cells of a resource, for range-for: aspects outermost, layers innermost.
+  auto of(uint32_t resource) const {
+    const Grid& grid = grids_[resource];
+    return std::views::iota(grid.firstCell, grid.firstCell + grid.count());
+  }
 
   /// Calls use(cell) for every cell of an access.
   template <class Use>

@@ -19,8 +19,7 @@ class Needs {
       : declaration_(declaration), cells_(cells), needed_(cells.count(), 0) {
     for (uint32_t resource = 0; resource < declaration.resources.size(); ++resource) {
       if (!declaration.resources[resource].exported) continue;
-      const uint32_t first = cells.firstOf(resource);
-      std::fill_n(needed_.begin() + first, cells.countOf(resource), uint8_t{1});
+      for (uint32_t cell : cells.of(resource)) needed_[cell] = 1;
     }
   }
 
@@ -28,12 +27,11 @@ class Needs {
   bool wants(uint32_t pass) const {
     const DeclaredPass& declared = declaration_.passes[pass];
     if (declared.sideEffect && !declared.disabled) return true;
-    for (uint32_t index = declared.firstAccess; index != kNone; index = declaration_.accesses[index].nextOfPass) {
-      const DeclaredAccess& access = declaration_.accesses[index];
+    for (const DeclaredAccess& access : declaration_.accessesOfPass(pass)) {
       if (!access.writes()) continue;
       if (!declaration_.resources[access.resource].created()) return true;
       bool any = false;
-      cells_.forEach(index, [&](uint32_t cell) { any = any || needed_[cell]; });
+      cells_.forEach(declaration_.numberOf(access), [&](uint32_t cell) { any = any || needed_[cell]; });
       if (any) return true;
     }
     return false;
@@ -50,10 +48,9 @@ class Needs {
  private:
   template <class Which>
   void set(uint32_t pass, Which&& which, uint8_t value) {
-    for (uint32_t index = declaration_.passes[pass].firstAccess; index != kNone;
-         index = declaration_.accesses[index].nextOfPass) {
-      if (!which(declaration_.accesses[index])) continue;
-      cells_.forEach(index, [&](uint32_t cell) { needed_[cell] = value; });
+    for (const DeclaredAccess& access : declaration_.accessesOfPass(pass)) {
+      if (!which(access)) continue;
+      cells_.forEach(declaration_.numberOf(access), [&](uint32_t cell) { needed_[cell] = value; });
     }
   }
 

@@ -1,3 +1,4 @@
+// Usage flags are the union over the accesses of living passes; the device says what memory the object then takes.
 #include "rendergraph/compile/flow/resource_needs.h"
 
 #include "rendergraph/declare/access_table.h"

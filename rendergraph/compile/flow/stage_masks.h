@@ -14,10 +14,15 @@ inline VkPipelineStageFlags2 elementaryStages(VkPipelineStageFlags2 stages) {
   return (expandedStages(stages) & ~kHost) | (stages & kHost);
 }
 
-/// Calls use(flag) for each bit.
+/// The lowest bit; 0 for 0.
+constexpr VkFlags64 firstBitOf(VkFlags64 flags) {
+  return flags & ~(flags - 1);
+}
+
+/// Calls use(flag) for each bit, the lowest first.
 template <class Use>
 void forEachBit(VkFlags64 flags, Use&& use) {
-  for (; flags != 0; flags &= flags - 1) use(flags & ~(flags - 1));
+  for (; flags != 0; flags &= flags - 1) use(firstBitOf(flags));
 }
 
 /// Where a chain of dependencies passes through that has no stage of its own; queue 0 and every computing one have it.

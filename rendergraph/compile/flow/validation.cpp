@@ -40,13 +40,9 @@ bool hasContent(const DeclaredResource& resource) {
 
 void checkContent(const Declaration& declaration, const Cells& cells, Problems& problems) {
   std::vector<uint8_t> written(cells.count(), 0);
-  const auto cellsOf = [&](uint32_t resource) {
-    const uint32_t first = cells.firstOf(resource);
-    return std::span<uint8_t>(written).subspan(first, cells.countOf(resource));
-  };
   for (uint32_t resource = 0; resource < declaration.resources.size(); ++resource) {
     if (!hasContent(declaration.resources[resource])) continue;
-    for (uint8_t& cell : cellsOf(resource)) cell = 1;
+    for (uint32_t cell : cells.of(resource)) written[cell] = 1;
   }
   for (uint32_t index = 0; index < declaration.accesses.size(); ++index) {
     const DeclaredAccess& access = declaration.accesses[index];
@@ -74,7 +70,7 @@ void checkContent(const Declaration& declaration, const Cells& cells, Problems& 
     const DeclaredResource& declared = declaration.resources[resource];
     if (!declared.exported || !declared.created()) continue;
     bool any = false;
-    for (uint8_t cell : cellsOf(resource)) any = any || cell;
+    for (uint32_t cell : cells.of(resource)) any = any || written[cell];
     if (!any) {
       problems.push_back(declaration.problem(Misuse::unwrittenRead, kNone, resource,
                                              "it is exported, but nothing has written it",

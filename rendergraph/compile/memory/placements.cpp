@@ -80,10 +80,9 @@ class Placer {
 
   void findLives() {
     for (uint32_t step = 0; step < schedule_.steps(); ++step) {
-      const DeclaredPass& pass = declaration_.passes[schedule_.order[step]];
       const uint32_t first = schedule_.unitFirst[step], last = schedule_.unitLast[step];
-      for (uint32_t index = pass.firstAccess; index != kNone; index = declaration_.accesses[index].nextOfPass) {
-        const uint32_t found = placementOf_[declaration_.accesses[index].resource];
+      for (const DeclaredAccess& access : declaration_.accessesOfPass(schedule_.order[step])) {
+        const uint32_t found = placementOf_[access.resource];
         if (found == kNone) continue;
         Placement& placement = plan_.placements[found];
         placement.firstStep = std::min(placement.firstStep, step);

@@ -20,10 +20,8 @@ CellUses::CellUses(const Declaration& declaration, const Cells& cells, const Sch
   for (uint32_t step = 0; step < schedule.steps(); ++step) {
     const uint32_t pass = schedule.order[step];
     const uint32_t unit = schedule.unitFirst[step];
-    for (uint32_t index = declaration.passes[pass].firstAccess; index != kNone;
-         index = declaration.accesses[index].nextOfPass) {
-      const DeclaredAccess& access = declaration.accesses[index];
-      cells.forEach(index, [&](uint32_t cell) {
+    for (const DeclaredAccess& access : declaration.accessesOfPass(pass)) {
+      cells.forEach(declaration.numberOf(access), [&](uint32_t cell) {
         const bool first = ends_[cell] == starts_[cell] || uses_[ends_[cell] - 1].step != unit;
         if (first) {
           CellUse& use = uses_[ends_[cell]++];

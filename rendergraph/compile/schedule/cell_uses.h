@@ -4,6 +4,7 @@
 
 #include <vulkan/vulkan_core.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -58,6 +59,9 @@ struct Epoch {
   VkImageLayout layout() const { return uses.front().layout; }
   bool writes() const { return uses.front().writes; }
   bool needsContent() const { return uses.front().needsContent; }
+  bool onSeveralQueues() const {
+    return std::ranges::any_of(uses, [&](const CellUse& use) { return use.queue != uses.front().queue; });
+  }
 };
 
 /// The epoch that starts at uses[first]. `oneQueue`: a run of reads ends where another queue goes on.
@@ -75,6 +79,15 @@ inline Epoch epochAt(std::span<const CellUse> uses, std::size_t first, bool oneQ
     epoch.access |= use.access;
   }
   return epoch;
+}
+
+/// The uses of the last epoch. Precondition: there are uses.
+inline std::span<const CellUse> lastEpochOf(std::span<const CellUse> uses) {
+  std::size_t first = uses.size() - 1;
+  while (first > 0 && !uses[first].writes && !uses[first - 1].writes && uses[first - 1].layout == uses.back().layout) {
+    --first;
+  }
+  return uses.subspan(first);
 }
 
 /// The part of an epoch that one queue executes.

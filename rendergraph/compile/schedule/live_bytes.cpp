@@ -1,3 +1,4 @@
+// Which passes use which resources, counted from the accesses; and the bytes alive, updated pass by pass.
 #include "rendergraph/compile/schedule/live_bytes.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// Ranks the queues of the device for each preference, and follows every cell from queue family to queue family to see
+// whether its content changes hands.
 #include "rendergraph/compile/schedule/queues.h"
 
 #include "rendergraph/compile/flow/cells.h"
@@ -89,7 +91,7 @@ std::vector<Sharing> sharingOf(const Declaration& declaration, const Cells& cell
     const DeclaredResource& declared = declaration.resources[resource];
     bool severalFamilies = false, severalAtOnce = false, changesFamily = false;
     uint32_t family = declared.observable() ? queues[0].family : kNone;
-    for (uint32_t cell = cells.firstOf(resource); cell < cells.firstOf(resource) + cells.countOf(resource); ++cell) {
+    for (uint32_t cell : cells.of(resource)) {
       const std::span<const CellUse> uses = cellUses.of(cell);
       changesFamily = changesFamily || contentChangesFamily(declared, uses, queues);
       for (std::size_t first = 0; first < uses.size();) {

@@ -1,3 +1,5 @@
+// Joins neighboring raster passes with equal attachments into one rendering, as long as nothing has to be ordered between
+// them.
 #include "rendergraph/compile/schedule/raster_merging.h"
 
 #include "rendergraph/compile/schedule/schedule.h"
@@ -41,9 +43,8 @@ bool needsOrder(const DeclaredResource& resource, const DeclaredAccess& earlier,
   return earlier.writes() || later.writes() || earlier.layout != later.layout;
 }
 
-bool independent(const Declaration& declaration, const DeclaredPass& earlier, uint32_t laterPass) {
-  for (uint32_t index = earlier.firstAccess; index != kNone; index = declaration.accesses[index].nextOfPass) {
-    const DeclaredAccess& access = declaration.accesses[index];
+bool independent(const Declaration& declaration, uint32_t earlierPass, uint32_t laterPass) {
+  for (const DeclaredAccess& access : declaration.accessesOfPass(earlierPass)) {
     for (const DeclaredAccess& later : declaration.accessesOfPass(laterPass)) {
       if (needsOrder(declaration.resources[access.resource], access, later)) return false;
     }
@@ -57,7 +58,7 @@ bool joins(const Declaration& declaration, const Schedule& schedule, uint32_t st
   if (pass.kind != PassKind::raster || before.kind != PassKind::raster) return false;
   if (schedule.queue[step] != schedule.queue[step - 1] || !sameAttachments(declaration, before, pass)) return false;
   for (uint32_t other = schedule.unitFirst[step - 1]; other < step; ++other) {
-    if (!independent(declaration, declaration.passes[schedule.order[other]], schedule.order[step])) return false;
+    if (!independent(declaration, schedule.order[other], schedule.order[step])) return false;
   }
   return true;
 }

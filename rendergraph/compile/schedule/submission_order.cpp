@@ -1,3 +1,4 @@
+// Vector clocks over the submissions: each submission raises the clocks of those that wait for it.
 #include "rendergraph/compile/schedule/submission_order.h"
 
 namespace lensgraph::rendergraph {
@@ -24,22 +25,17 @@ void SubmissionOrder::update() {
       waitsOf_[submission.queue].push_back({wait, i});
     }
   }
-  clocks_.assign(queueOf_.size() * queues_, 0);
+  clocks_ = VectorClocks(queueOf_.size(), queues_);
   hostDone_.assign(count, kNone);
-  const auto include = [&](Moment later, Moment earlier) {
-    for (uint32_t queue = 0; queue < queues_; ++queue) {
-      uint32_t& clock = clocks_[static_cast<std::size_t>(later) * queues_ + queue];
-      clock = std::max(clock, clocks_[static_cast<std::size_t>(earlier) * queues_ + queue]);
-    }
-  };
-  clocks_[0] = 1;
+  const auto include = [&](Moment later, Moment earlier) { clocks_.include(later, clocks_.row(earlier)); };
+  clocks_.of(0, 0) = 1;
   std::vector<Moment> last(queues_, kNone);
   last[0] = 0;
   Moment host = kNone;
   for (Moment moment = 1; moment < queueOf_.size(); ++moment) {
     const uint32_t i = (moment - 1) % count;
     const PlannedSubmission& submission = plan_.submissions[i];
-    clocks_[static_cast<std::size_t>(moment) * queues_ + submission.queue] = moment + 1;
+    clocks_.of(moment, submission.queue) = moment + 1;
     if (last[submission.queue] != kNone) include(moment, last[submission.queue]);
     if (host != kNone) include(moment, host);
     for (const SubmissionWait& wait : plan_.waitsOf(submission)) {

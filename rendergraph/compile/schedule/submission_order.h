@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "rendergraph/compile/schedule/vector_clocks.h"
 #include "rendergraph/plan.h"
 
 namespace lensgraph::rendergraph {
@@ -28,9 +29,7 @@ class SubmissionOrder {
   /// The same moment in the frame before.
   Moment inFrameBefore(Moment moment) const { return moment - thisFrame_; }
   /// Whether the later moment comes after the other; a moment does after itself.
-  bool covers(Moment later, Moment moment) const {
-    return clocks_[static_cast<std::size_t>(later) * queues_ + queueOf_[moment]] > moment;
-  }
+  bool covers(Moment later, Moment moment) const { return clocks_.of(later, queueOf_[moment]) > moment; }
   /// The latest moment that the host has waited for before it submits; what that covers comes before everything.
   Moment hostDoneBefore(uint32_t submission) const { return hostDone_[submission]; }
 
@@ -73,7 +72,7 @@ class SubmissionOrder {
   uint32_t thisFrame_;             // Submissions before those of the frame.
   std::vector<uint32_t> queueOf_;  // By moment.
   std::vector<Moment> hostDone_;   // By submission: the latest one for which the host has waited before.
-  std::vector<uint32_t> clocks_;   // By moment and queue: the latest moment of the queue before it, plus one.
+  VectorClocks clocks_;            // By moment and queue: the latest moment of the queue before it, plus one.
   std::vector<std::vector<QueueWait>> waitsOf_;  // By queue.
 };
 

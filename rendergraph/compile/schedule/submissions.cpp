@@ -1,212 +1,26 @@
-// Between two uses of a cell that must not touch, on different queues, stands a semaphore. Which of them are needed
-// is found with vector clocks: for every queue, how far it knows each other queue to be. A wait is left out when the
-// queue knows enough already, be it through a third queue; then only its stages are added to the wait that told it.
-// Which of these nobody relies on shows when the barriers are known (wait_needs.h).
+// Cuts the schedule where queues wait for each other and at host passes, puts the steps of each submission together, and
+// finds with vector clocks which steps may run concurrently.
 #include "rendergraph/compile/schedule/submissions.h"
 
 #include <algorithm>
 #include <numeric>
 
-#include "rendergraph/compile/flow/cells.h"
-#include "rendergraph/compile/flow/stage_masks.h"
-#include "rendergraph/compile/schedule/cell_uses.h"
 #include "rendergraph/compile/schedule/schedule.h"
+#include "rendergraph/compile/schedule/submission_waits.h"
+#include "rendergraph/compile/schedule/vector_clocks.h"
 #include "rendergraph/declare/declaration.h"
 
 namespace lensgraph::rendergraph {
 
 namespace {
 
-struct Dependency {
-  uint32_t from = kNone;  // Step; kNone: what the host or the previous frame did, which ends with queue 0.
-  uint32_t to = 0;        // Step.
-  VkPipelineStageFlags2 stages = 0;
-};
-
-struct Wait {
-  uint32_t from, to;
-  VkPipelineStageFlags2 stages;
-};
-
-class Dependencies {
- public:
-  Dependencies(const Declaration& declaration, const Schedule& schedule, bool overlappingFrames)
-      : declaration_(declaration), schedule_(schedule), overlappingFrames_(overlappingFrames) {}
-
-  void addCell(const DeclaredResource& resource, std::span<const CellUse> inGraph, bool oneOwner) {
-    if (inGraph.empty()) return;
-    uses_.assign(inGraph.begin(), inGraph.end());
-    const VkImageLayout before = resource.persistent() ? restStateOf(resource).layout : resource.before.layout;
-    if (const auto after = useAfterGraph(resource, inGraph, before, schedule_.steps(), overlappingFrames_))
-      uses_.push_back(*after);
-    const std::span<const CellUse> uses = uses_;
-    Epoch previous;
-    for (std::size_t first = 0; first < uses.size();) {
-      const Epoch epoch = epochAt(uses, first, oneOwner);
-      if (first == 0) {
-        if (needsBefore(resource, epoch)) addFromBefore(epoch);
-      } else {
-        connect(previous, epoch);
-      }
-      previous = epoch;
-      first += epoch.uses.size();
-    }
-  }
-
-  /// Sorted by the step that waits, the latest cause first.
-  std::vector<Dependency> sorted() && {
-    std::sort(all_.begin(), all_.end(), [](const Dependency& a, const Dependency& b) {
-      const uint32_t fromA = a.from + 1, fromB = b.from + 1;  // kNone becomes 0.
-      return a.to != b.to ? a.to < b.to : fromA > fromB;
-    });
-    return std::move(all_);
-  }
-
- private:
-  bool isHost(uint32_t step) const { return declaration_.passes[schedule_.order[step]].kind == PassKind::host; }
-  /// Whether the first use relies on what queue 0 did before. The host has waited unless frames overlap.
-  bool needsBefore(const DeclaredResource& resource, const Epoch& epoch) const {
-    if (overlappingFrames_) return true;
-    if (resource.created()) return false;
-    return epoch.needsContent() || (resource.imported() && resource.before.stages != 0);
-  }
-  void addFromBefore(const Epoch& epoch) {
-    forFirstOnEachQueue(epoch, [&](const CellUse& use) {
-      if (use.queue != 0) all_.push_back({kNone, use.step, semaphoreStages(partOf(epoch, use.queue).stages)});
-    });
-  }
-  void connect(const Epoch& before, const Epoch& after) {
-    forFirstOnEachQueue(after, [&](const CellUse& to) {
-      const VkPipelineStageFlags2 stages = semaphoreStages(partOf(after, to.queue).stages);
-      forLastOnEachQueue(before, [&](const CellUse& from) {
-        // What the host wrote is visible to all that is submitted later.
-        if (from.queue == to.queue || (from.writes && isHost(from.step))) return;
-        all_.push_back({schedule_.unitLast[from.step], to.step, stages});
-      });
-      // The first of several readers on different queues changes the layout when several had it before.
-      const CellUse& first = after.uses.front();
-      if (to.queue != first.queue && before.layout() != after.layout() && onSeveralQueues(before)) {
-        all_.push_back({schedule_.unitLast[first.step], to.step, stages});
-      }
-    });
-  }
-  static bool onSeveralQueues(const Epoch& epoch) {
-    return std::any_of(epoch.uses.begin(), epoch.uses.end(),
-                       [&](const CellUse& use) { return use.queue != epoch.uses.front().queue; });
-  }
-  template <class Use>
-  static void forFirstOnEachQueue(const Epoch& epoch, Use&& use) {
-    for (std::size_t i = 0; i < epoch.uses.size(); ++i) {
-      const auto earlier = epoch.uses.first(i);
-      const bool seen = std::any_of(earlier.begin(), earlier.end(),
-                                    [&](const CellUse& other) { return other.queue == epoch.uses[i].queue; });
-      if (!seen) use(epoch.uses[i]);
-    }
-  }
-  template <class Use>
-  static void forLastOnEachQueue(const Epoch& epoch, Use&& use) {
-    for (std::size_t i = 0; i < epoch.uses.size(); ++i) {
-      const auto later = epoch.uses.subspan(i + 1);
-      const bool seen = std::any_of(later.begin(), later.end(),
-                                    [&](const CellUse& other) { return other.queue == epoch.uses[i].queue; });
-      if (!seen) use(epoch.uses[i]);
-    }
-  }
-
-  const Declaration& declaration_;
-  const Schedule& schedule_;
-  bool overlappingFrames_;
-  std::vector<Dependency> all_;
-  std::vector<CellUse> uses_;  // Of the current cell.
-};
-
-/// Vector clocks. A time is a number of steps of a queue's future: step + 2, where 1 stands for kNone.
-class Clocks {
- public:
-  explicit Clocks(const Schedule& schedule)
-      : schedule_(schedule),
-        queues_(schedule.queues),
-        known_(queues_ * queues_, Known{}),
-        atStep_(static_cast<std::size_t>(schedule.steps()) * queues_, 0) {
-    known_[0].time = timeOf(kNone);  // Queue 0 itself comes after it.
-  }
-
-  /// One past the last step stands for what follows the graph, on queue 0.
-  void wait(const Dependency& dependency) {
-    const uint32_t queue = dependency.to < schedule_.steps() ? schedule_.queue[dependency.to] : 0;
-    const uint32_t source = dependency.from == kNone ? 0 : schedule_.queue[dependency.from];
-    Known& known = knownBy(queue, source);
-    if (known.time >= timeOf(dependency.from)) {
-      waits[known.wait].stages |= dependency.stages;
-      return;
-    }
-    const auto wait = static_cast<uint32_t>(waits.size());
-    waits.push_back({dependency.from, dependency.to, dependency.stages});
-    known = {timeOf(dependency.from), wait};
-    if (dependency.from == kNone) return;
-    for (uint32_t other = 0; other < queues_; ++other) {
-      const uint32_t time = atStep_[static_cast<std::size_t>(dependency.from) * queues_ + other];
-      if (other != queue && knownBy(queue, other).time < time) knownBy(queue, other) = {time, wait};
-    }
-  }
-  void finish(uint32_t step) {
-    const uint32_t queue = schedule_.queue[step];
-    knownBy(queue, queue).time = timeOf(step);
-    for (uint32_t other = 0; other < queues_; ++other) {
-      atStep_[static_cast<std::size_t>(step) * queues_ + other] = knownBy(queue, other).time;
-    }
-  }
-
-  /// Makes what follows the graph wait for every queue.
-  void waitForAll() {
-    std::vector<Dependency> last;
-    for (uint32_t step = schedule_.steps(); step-- > 0;) {
-      const uint32_t queue = schedule_.queue[step];
-      const bool found =
-          std::any_of(last.begin(), last.end(), [&](const Dependency& d) { return schedule_.queue[d.from] == queue; });
-      if (queue != 0 && !found) last.push_back({step, schedule_.steps(), 0});
-    }
-    for (const Dependency& dependency : last) wait(dependency);
-    for (Wait& wait : waits) {
-      if (wait.to == schedule_.steps()) wait.stages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-    }
-  }
-
-  std::vector<Wait> waits;
-
- private:
-  struct Known {
-    uint32_t time = 0;
-    uint32_t wait = 0;  // That told it.
-  };
-  static uint32_t timeOf(uint32_t step) { return step == kNone ? 1 : step + 2; }
-  Known& knownBy(uint32_t queue, uint32_t other) { return known_[queue * queues_ + other]; }
-
-  const Schedule& schedule_;
-  uint32_t queues_;
-  std::vector<Known> known_;
-  std::vector<uint32_t> atStep_;
-};
-
-std::vector<Wait> findWaits(const Schedule& schedule, const std::vector<Dependency>& dependencies) {
-  Clocks clocks(schedule);
-  auto next = dependencies.begin();
-  for (uint32_t step = 0; step < schedule.steps(); ++step) {
-    for (; next != dependencies.end() && next->to == step; ++next) clocks.wait(*next);
-    clocks.finish(step);
-  }
-  for (; next != dependencies.end(); ++next) clocks.wait(*next);
-  clocks.waitForAll();
-  return std::move(clocks.waits);
-}
-
 /// Cuts before steps that wait and after steps that are waited for, and at host passes on every queue.
 class Cutter {
  public:
-  Cutter(const Declaration& declaration, const Schedule& schedule, std::span<const Wait> waits)
+  Cutter(const Declaration& declaration, const Schedule& schedule, std::span<const StepWait> waits)
       : declaration_(declaration), schedule_(schedule), waits_(waits), open_(schedule.queues, kNone) {
     signals_.assign(schedule.steps(), 0);
-    for (const Wait& wait : waits) {
+    for (const StepWait& wait : waits) {
       if (wait.from != kNone) signals_[schedule.unitLast[wait.from]] = 1;
     }
   }
@@ -242,7 +56,7 @@ class Cutter {
     // The first submission is waited for by others, and is over at once.
     if (schedule_.severalQueues && result_.list.size() == 1) open_[queue] = kNone;
   }
-  void addWait(uint32_t submission, const Wait& wait) {
+  void addWait(uint32_t submission, const StepWait& wait) {
     const uint32_t source = wait.from == kNone ? 0 : result_.of[wait.from];
     waitsOf_[submission].push_back({.submission = source, .stages = wait.stages});
   }
@@ -258,7 +72,7 @@ class Cutter {
 
   const Declaration& declaration_;
   const Schedule& schedule_;
-  std::span<const Wait> waits_;
+  std::span<const StepWait> waits_;
   std::vector<uint32_t> open_;
   std::vector<uint8_t> signals_;
   Submissions result_;
@@ -282,33 +96,32 @@ void reorder(const std::vector<uint32_t>& stepsInOrder, Schedule& schedule, std:
   }
 }
 
-/// For each step and each other queue: how far that queue may come before it knows of the step.
+/// For each step, the last step of any other queue that may run concurrently with it.
 void findConcurrent(const Schedule& schedule, Submissions& submissions) {
   const uint32_t queues = schedule.queues;
   const auto count = static_cast<uint32_t>(submissions.list.size());
-  // Steps of each queue that a submission knows to be over when it begins: the number of the last one, plus one.
-  std::vector<uint32_t> atBegin(static_cast<std::size_t>(count) * queues, 0), atEnd = atBegin;
-  std::vector<uint32_t> now(static_cast<std::size_t>(queues) * queues, 0);
-  const auto raise = [](uint32_t& value, uint32_t other) { value = std::max(value, other); };
+  // By queue, the number of the last step that is over, plus one: when a submission begins, when it ends, and on the
+  // submission's queue so far.
+  VectorClocks atBegin(count, queues), atEnd(count, queues), now(queues, queues);
   for (uint32_t i = 0; i < count; ++i) {
     const PlannedSubmission& submission = submissions.list[i];
-    uint32_t* known = &now[submission.queue * queues];
     for (uint32_t w = 0; w < submission.waits.count; ++w) {
-      const uint32_t source = submissions.waits[submission.waits.first + w].submission;
-      for (uint32_t queue = 0; queue < queues; ++queue) raise(known[queue], atEnd[source * queues + queue]);
+      now.include(submission.queue, atEnd.row(submissions.waits[submission.waits.first + w].submission));
     }
-    std::copy_n(known, queues, &atBegin[i * queues]);
-    if (submission.steps.count > 0) known[submission.queue] = submission.steps.first + submission.steps.count;
-    std::copy_n(known, queues, &atEnd[i * queues]);
+    atBegin.include(i, now.row(submission.queue));
+    if (submission.steps.count > 0) {
+      now.of(submission.queue, submission.queue) = submission.steps.first + submission.steps.count;
+    }
+    atEnd.include(i, now.row(submission.queue));
   }
-  // Backwards: the last step of each queue's submissions that do not know of the step yet.
+  // The last step of all later submissions that have not waited for this one.
   for (uint32_t step = 0; step < schedule.steps(); ++step) {
     uint32_t& last = submissions.lastConcurrent[step];
     for (uint32_t i = submissions.of[step] + 1; i < count; ++i) {
       const PlannedSubmission& other = submissions.list[i];
       if (other.steps.count == 0 || other.queue == schedule.queue[step]) continue;
-      if (atBegin[i * queues + schedule.queue[step]] > step) continue;
-      raise(last, other.steps.first + other.steps.count - 1);
+      if (atBegin.of(i, schedule.queue[step]) > step) continue;
+      last = std::max(last, other.steps.first + other.steps.count - 1);
     }
   }
 }
@@ -317,16 +130,9 @@ void findConcurrent(const Schedule& schedule, Submissions& submissions) {
 
 Submissions planSubmissions(const Declaration& declaration, const Cells& cells, const CellUses& cellUses,
                             std::span<const Sharing> sharing, bool overlappingFrames, Schedule& schedule) {
-  std::vector<Wait> waits;
+  std::vector<StepWait> waits;
   if (schedule.severalQueues) {
-    Dependencies dependencies(declaration, schedule, overlappingFrames);
-    for (uint32_t resource = 0; resource < declaration.resources.size(); ++resource) {
-      const uint32_t first = cells.firstOf(resource);
-      for (uint32_t cell = first; cell < first + cells.countOf(resource); ++cell) {
-        dependencies.addCell(declaration.resources[resource], cellUses.of(cell), hasOwner(sharing[resource]));
-      }
-    }
-    waits = findWaits(schedule, std::move(dependencies).sorted());
+    waits = findStepWaits(declaration, cells, cellUses, sharing, overlappingFrames, schedule);
   }
   std::vector<uint32_t> stepsInOrder;
   Submissions result = Cutter(declaration, schedule, waits).run(stepsInOrder);

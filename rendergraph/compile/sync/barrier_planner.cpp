@@ -77,9 +77,8 @@ void BarrierPlanner::findPredecessors() {
   finalSteps_.resize(count, 0);
   changedAtEnd_.resize(count, 0);
   for (const Placement& placement : plan_.placements) {
-    const uint32_t first = in_.cells.firstOf(placement.resource);
     bool full = true;
-    for (uint32_t cell = first; cell < first + in_.cells.countOf(placement.resource); ++cell) {
+    for (uint32_t cell : in_.cells.of(placement.resource)) {
       full = !in_.cellUses.of(cell).empty() && full;
       noteFinalScopes(placement.resource, cell);
     }
@@ -102,11 +101,7 @@ void BarrierPlanner::noteFinalScopes(uint32_t resource, uint32_t cell) {
     if (noteExported(declared, uses, owned, scopes[0])) return;
   }
   const bool forHost = declared.exported && (declared.after.stages & VK_PIPELINE_STAGE_2_HOST_BIT) != 0;
-  std::size_t first = uses.size() - 1;
-  if (!uses[first].writes) {
-    while (first > 0 && !uses[first - 1].writes && uses[first - 1].layout == uses.back().layout) --first;
-  }
-  for (const CellUse& use : uses.subspan(first)) {
+  for (const CellUse& use : lastEpochOf(uses)) {
     AccessPoint& scope = scopes[use.queue];
     scope.pass = use.lastPass;
     scope.stages |= use.stages;
@@ -191,10 +186,9 @@ CellState BarrierPlanner::stateBefore(uint32_t resource, uint32_t queue) const {
 
 void BarrierPlanner::planResource(uint32_t resource) {
   const DeclaredResource& declared = in_.declaration.resources[resource];
-  const uint32_t first = in_.cells.firstOf(resource);
-  const uint32_t count = in_.cells.countOf(resource);
+  const auto cells = in_.cells.of(resource);
   found_.clear();
-  for (uint32_t cell = first; cell < first + count; ++cell) {
+  for (uint32_t cell : cells) {
     const std::span<const CellUse> uses = in_.cellUses.of(cell);
     if (uses.empty() && (!declared.observable() || declared.persistent())) continue;
     const CellState start = stateBefore(resource, uses.empty() ? 0 : uses.front().queue);
@@ -209,7 +203,7 @@ void BarrierPlanner::planResource(uint32_t resource) {
       planCell(resource, cell, start);
     }
   }
-  if (count > 1) mergeRanges(found_);
+  if (cells.size() > 1) mergeRanges(found_);
   all_.insert(all_.end(), found_.begin(), found_.end());
 }
 
@@ -250,10 +244,9 @@ void BarrierPlanner::joinReads(uint32_t resource, uint32_t cell, CellState& stat
   for (std::size_t i = 0; i < epoch.uses.size(); ++i) {
     const CellUse& use = epoch.uses[i];
     VkPipelineStageFlags2 uncovered = 0;
-    for (VkPipelineStageFlags2 rest = use.stages; rest != 0; rest &= rest - 1) {
-      const VkPipelineStageFlags2 stage = rest & ~(rest - 1);
+    forEachBit(use.stages, [&](VkPipelineStageFlags2 stage) {
       if (!state.visible.covers(stage, use.access)) uncovered |= stage;
-    }
+    });
     if (uncovered == 0) continue;
     if (missing.uses.empty()) {
       missing.uses = epoch.uses.subspan(i);

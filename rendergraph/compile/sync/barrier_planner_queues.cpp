@@ -4,7 +4,7 @@
 //                     the cell next; else by the queue that uses it next, chained to the stages that waited;
 //   a new owner       released at the end of the last submission of the old owner's queue that uses it, and acquired
 //                     before the first use by the new one; both name the layouts.
-// On the queue that goes on using the cell itself, the rules of barriers.cpp hold. Every barrier is proposed in full;
+// On the queue that goes on using the cell itself, the rules of barrier_planner.cpp hold. Every barrier is proposed in full;
 // what semaphores have seen to is taken from it afterwards (barrier_trimming.h).
 #include <algorithm>
 
@@ -19,15 +19,10 @@ bool has(const Epoch& epoch, uint32_t queue) {
   return std::any_of(epoch.uses.begin(), epoch.uses.end(), [&](const CellUse& use) { return use.queue == queue; });
 }
 
-bool onSeveralQueues(const Epoch& epoch) {
-  return std::any_of(epoch.uses.begin(), epoch.uses.end(),
-                     [&](const CellUse& use) { return use.queue != epoch.uses.front().queue; });
-}
-
 /// One of the stages of a queue that have waited for the semaphore when an epoch begins: enough to chain to it.
 VkPipelineStageFlags2 waitingStage(const Epoch& epoch, uint32_t queue) {
   const VkPipelineStageFlags2 stages = semaphoreStages(partOf(epoch, queue).stages);
-  return stages & ~(stages - 1);
+  return firstBitOf(stages);
 }
 
 }  // namespace
@@ -88,7 +83,7 @@ void BarrierPlanner::cross(Crossing& crossing, const Epoch& epoch) {
   const bool newOwner = otherFamily && epoch.needsContent();
   // An image whose content is dropped changes hands by a transition from UNDEFINED.
   const bool transition = isImage && (crossing.layout != epoch.layout() || otherFamily);
-  const bool atEnd = transition && crossing.onOneQueue() && onSeveralQueues(epoch);
+  const bool atEnd = transition && crossing.onOneQueue() && epoch.onSeveralQueues();
   std::vector<Crossing::OnQueue> after(in_.schedule.queues);
   for (uint32_t queue = 0; queue < in_.schedule.queues; ++queue) {
     if (!has(epoch, queue)) continue;

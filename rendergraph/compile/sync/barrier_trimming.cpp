@@ -1,8 +1,10 @@
+// Tries each barrier without each of its bits, and keeps the bits without which the hazard tracker finds a hazard.
 #include "rendergraph/compile/sync/barrier_trimming.h"
 
 #include <algorithm>
 #include <cassert>
 
+#include "rendergraph/compile/flow/stage_masks.h"
 #include "rendergraph/compile/schedule/schedule.h"
 #include "rendergraph/compile/schedule/submissions.h"
 #include "rendergraph/declare/declaration.h"
@@ -93,11 +95,10 @@ VkPipelineStageFlags2 BarrierTrimming::endStages(uint32_t resource) const {
 
 template <class Member>
 void BarrierTrimming::trimBits(TimedBarrier& barrier, Member member, uint64_t except) {
-  for (uint64_t left = member(barrier.barrier) & ~except; left != 0; left &= left - 1) {
-    const uint64_t bit = left & ~(left - 1);
+  forEachBit(member(barrier.barrier) & ~except, [&](uint64_t bit) {
     member(barrier.barrier) &= ~bit;
     if (!hazards_.isSynchronized(barriers_)) member(barrier.barrier) |= bit;
-  }
+  });
 }
 
 void BarrierTrimming::trim(TimedBarrier& barrier) {

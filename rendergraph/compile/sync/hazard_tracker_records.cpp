@@ -68,10 +68,7 @@ void HazardTracker::addOutside(const DeclaredResource& resource) {
 const std::vector<HazardTracker::Record>& HazardTracker::leftBy(uint32_t resource) {
   if (leftKnown_[resource] == 0) {
     leftKnown_[resource] = 1;
-    const uint32_t first = in_.cells.firstOf(resource);
-    for (uint32_t cell = first; cell < first + in_.cells.countOf(resource); ++cell) {
-      addLeft(resource, cell, left_[resource]);
-    }
+    for (uint32_t cell : in_.cells.of(resource)) addLeft(resource, cell, left_[resource]);
   }
   return left_[resource];
 }
@@ -99,14 +96,9 @@ void HazardTracker::addLeft(uint32_t resource, uint32_t cell, std::vector<Record
     }
     added.push_back(std::move(changed));
   } else if (!uses.empty() && (asked == 0 || (!uses.back().writes && !after->writes))) {
-    std::size_t first = uses.size() - 1;
-    while (first > 0 && !uses[first].writes && !uses[first - 1].writes &&
-           uses[first - 1].layout == uses.back().layout) {
-      --first;
-    }
     resource_ = resource;
     cell_ = cell;
-    for (const CellUse& use : uses.subspan(first)) {
+    for (const CellUse& use : lastEpochOf(uses)) {
       uses_.clear();
       touches_.clear();
       addUse(use);
@@ -147,10 +139,8 @@ void HazardTracker::addUse(const CellUse& use) {
   } else {
     for (uint32_t step = use.step; step <= in_.schedule.unitLast[use.step]; ++step) {
       const uint32_t pass = in_.schedule.order[step];
-      for (uint32_t index = in_.declaration.passes[pass].firstAccess; index != kNone;
-           index = in_.declaration.accesses[index].nextOfPass) {
-        const DeclaredAccess& access = in_.declaration.accesses[index];
-        in_.cells.forEach(index, [&](uint32_t cell) {
+      for (const DeclaredAccess& access : in_.declaration.accessesOfPass(pass)) {
+        in_.cells.forEach(in_.declaration.numberOf(access), [&](uint32_t cell) {
           if (cell != cell_) return;
           const bool inside = use.pass != pass && access.role != AttachmentRole::none;
           addTouch(first, access.stages, inside ? access.access & kWriteAccess : access.access);

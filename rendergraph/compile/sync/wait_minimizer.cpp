@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "rendergraph/compile/flow/stage_masks.h"
+
 namespace lensgraph::rendergraph {
 
 namespace {
@@ -50,14 +52,14 @@ void WaitMinimizer::needOrder(SubmissionOrder::Moment moment, SubmissionOrder::M
 }
 
 void WaitMinimizer::minimize(SubmissionOrder& order, Plan& plan) const {
-  takeStages(plan, Last::mayGo);
+  takeStages(plan, LastStage::mayGo);
   takeWaits(order, plan);
   // The waits that are left have a stage in any case, which may serve for those of others.
-  takeStages(plan, Last::stays);
+  takeStages(plan, LastStage::stays);
   eraseWaitsWithoutStages(plan);
 }
 
-void WaitMinimizer::takeStages(Plan& plan, Last last) const {
+void WaitMinimizer::takeStages(Plan& plan, LastStage last) const {
   struct Service {
     WaitStage by;
     uint32_t need;
@@ -77,19 +79,18 @@ void WaitMinimizer::takeStages(Plan& plan, Last last) const {
   for (uint32_t wait = 0; wait < plan.submissionWaits.size(); ++wait) {
     VkPipelineStageFlags2& stages = plan.submissionWaits[wait].stages;
     const VkPipelineStageFlags2 before = stages;
-    for (VkPipelineStageFlags2 rest = before; rest != 0; rest &= rest - 1) {
-      const VkPipelineStageFlags2 flag = rest & ~(rest - 1);
+    forEachBit(before, [&](VkPipelineStageFlags2 flag) {
       const auto end = std::find_if(first, services.end(),
                                     [&](const Service& s) { return s.by.wait != wait || flagOf(s.by) != flag; });
-      const bool needed = (last == Last::stays && stages == flag) ||
+      const bool needed = (last == LastStage::stays && stages == flag) ||
                           std::any_of(first, end, [&](const Service& s) { return choices[s.need] == 1; });
       if (!needed) {
         stages &= ~flag;
         std::for_each(first, end, [&](const Service& s) { --choices[s.need]; });
       }
       first = end;
-    }
-    if (stages == 0) stages = before & ~(before - 1);  // Whether the whole wait may go is another question.
+    });
+    if (stages == 0) stages = firstBitOf(before);  // Whether the whole wait may go is another question.
   }
 }
 

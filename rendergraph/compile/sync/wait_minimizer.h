@@ -39,8 +39,9 @@ class WaitMinimizer {
   struct Ordered {
     SubmissionOrder::Moment moment, later;
   };
-  enum class Last { mayGo, stays };  // Stage of a wait.
-  void takeStages(Plan& plan, Last last) const;
+  /// Whether the last stage of a wait may be removed, which removes the wait, or stays.
+  enum class LastStage { mayGo, stays };
+  void takeStages(Plan& plan, LastStage last) const;
   void takeWaits(SubmissionOrder& order, Plan& plan) const;
   std::optional<uint32_t> onlyWait(const Need& need, const Plan& plan) const;
   bool met(const SubmissionOrder& order, const Plan& plan) const;

@@ -1,3 +1,4 @@
+// Imports two pictures, declares one technique between them, executes it, and reads the result back.
 #include "tests/gpu/techniques/image_technique.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// Host-visible buffers of the test device, filled and read through mapped memory.
 #include "tests/support/gpu/device_buffers.h"
 
 #include "tests/support/gpu/gpu_test.h"

@@ -1,3 +1,4 @@
+// Makes the validated device once for all tests of a program, and fails a test on any message of the layers.
 #include "tests/support/gpu/gpu_test.h"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// Sums and moments of the light around one point of a picture.
 #include "tests/support/gpu/spot.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Small scenes of textured quads, and shots that look at them.
 #include "tests/support/gpu/test_scenes.h"
 
 namespace lensgraph::support {

@@ -1,3 +1,4 @@
+// Declares one technique alone: on two imported pictures, or on a scene that draws nothing.
 #include "bare_technique.h"
 
 namespace lensgraph {

@@ -118,8 +118,11 @@ std::vector<std::string> againstDirections(const std::vector<SourceFile>& files,
 }
 
 std::string moduleOf(const SourceFile& file) {
-  const auto header = std::ranges::find_if(
-      file.includes, [&](const std::string& include) { return stemOf(include) == stemOf(file.path); });
+  // Of the same library: a command of the samples may bear the name of a header of the render graph.
+  const auto libraryOf = [](const std::string& path) { return path.substr(0, path.find('/')); };
+  const auto header = std::ranges::find_if(file.includes, [&](const std::string& include) {
+    return stemOf(include) == stemOf(file.path) && libraryOf(include) == libraryOf(file.path);
+  });
   const std::string& name = file.path.ends_with(".cpp") && header != file.includes.end() ? *header : file.path;
   return name.substr(0, name.rfind('.'));
 }

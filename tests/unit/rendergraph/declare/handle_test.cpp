@@ -1,3 +1,4 @@
+// Handles are values: comparing, versions, and what a default-made one says of itself.
 #include "rendergraph/handle.h"
 
 #include <gtest/gtest.h>

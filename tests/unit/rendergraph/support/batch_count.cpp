@@ -1,3 +1,4 @@
+// Interval stabbing: every barrier has a window of places, and the fewest batches are the fewest points that hit all windows.
 #include "support/batch_count.h"
 
 #include <algorithm>

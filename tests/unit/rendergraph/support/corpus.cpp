@@ -1,3 +1,4 @@
+// Graphs of three shapes with textures of ten sizes, drawn from a seed.
 #include "support/corpus.h"
 
 #include <algorithm>

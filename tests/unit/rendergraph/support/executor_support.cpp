@@ -1,3 +1,4 @@
+// Declares the small frames that tests of the executor run.
 #include "support/executor_support.h"
 
 namespace lensgraph::executor_test {

@@ -1,3 +1,4 @@
+// Keeps a log of every call, and a list of the mistakes that a validation layer would report.
 #include "support/fake_backend.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Draws passes, resources and accesses at random, such that every declaration is legal.
 #include "support/random_graph.h"
 
 #include <array>
