@@ -24,7 +24,7 @@
 
 namespace lensgraph::rendergraph {
 
-struct ExecutorState;
+class ExecutorState;
 
 /// A frame given to the device; numbers count up from 1, 0 is none.
 struct FrameToken {

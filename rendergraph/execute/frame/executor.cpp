@@ -1,24 +1,11 @@
-// The public face: one execution from declaration to results, and the questions one may ask afterwards.
+// The public face of ExecutorState: calls with their preconditions checked, and look-ups of what a frame exported.
 #include "rendergraph/executor.h"
 
 #include <string>
 
 #include "rendergraph/execute/frame/executor_state.h"
-#include "rendergraph/execute/frame/frame_runner.h"
-#include "rendergraph/inspect/capture_builder.h"
 
 namespace lensgraph::rendergraph {
-
-void ExportTable::take(const Declaration& declaration, const ResourceTable& table) {
-  serial = declaration.serial;
-  objects = table;
-  exported.clear();
-  sizes.clear();
-  for (const DeclaredResource& resource : declaration.resources) {
-    exported.push_back(resource.exported);
-    sizes.push_back(resource.isImage ? 0 : resource.buffer.size);
-  }
-}
 
 namespace {
 
@@ -26,16 +13,16 @@ namespace {
   throw GraphError({{.misuse = misuse, .pass = {}, .resource = {}, .reason = reason, .remedy = remedy, .where = {}}});
 }
 
-/// The slot of the latest frame that this graph gave.
+/// The frame in flight that served the latest frame of the handle's declaration.
 template <class Tag>
-const FrameInFlight& exporterOf(const std::vector<FrameInFlight>& slots, const Handle<Tag>& handle) {
+const FrameInFlight& exporterOf(const FrameRing& frames, const Handle<Tag>& handle) {
   if (!handle) {
     refuse(Misuse::unknownHandle, "the handle was never given a resource", "use a handle that the graph returned");
   }
   const FrameInFlight* latest = nullptr;
-  for (const FrameInFlight& slot : slots) {
-    const bool isIts = slot.exports.serial == handle.graph && handle.resource < slot.exports.objects.size();
-    if (isIts && (latest == nullptr || slot.frame > latest->frame)) latest = &slot;
+  for (const FrameInFlight& frame : frames.all()) {
+    const bool isIts = frame.exports.serial == handle.graph && handle.resource < frame.exports.objects.size();
+    if (isIts && (latest == nullptr || frame.frame > latest->frame)) latest = &frame;
   }
   if (latest == nullptr) {
     refuse(Misuse::foreignHandle, "the handle does not belong to a graph executed lately",
@@ -45,16 +32,6 @@ const FrameInFlight& exporterOf(const std::vector<FrameInFlight>& slots, const H
     refuse(Misuse::importState, "the resource was not exported", "call exportImage() or exportBuffer() on it");
   }
   return *latest;
-}
-
-CompileOptions compileOptionsOf(const ExecuteOptions& options, std::size_t framesInFlight) {
-  CompileOptions compile = options.compile;
-  if (framesInFlight > 1) compile.overlappingFrames = true;
-  if (options.timing != Timing::isolated) return compile;
-  compile.mergeRasterPasses = false;  // What is to be timed alone stands alone.
-  compile.splitDistance = 0;
-  compile.useQueues = false;
-  return compile;
 }
 
 }  // namespace
@@ -68,21 +45,7 @@ Executor::Executor(Backend& backend, const ExecutorOptions& options) {
 Executor::~Executor() = default;
 
 FrameToken Executor::submit(const Graph& graph, const ExecuteOptions& options) {
-  const Clock::time_point start = Clock::now();
-  const Declaration& declaration = graph.declaration();
-  if (options.timing == Timing::isolated) state_->waitForAll();
-  FrameInFlight& slot = state_->openSlot();
-  slot.start = start;
-  try {
-    state_->prepare(declaration, compileOptionsOf(options, state_->slots.size()), slot, options.timing);
-    FrameRunner(*state_, slot, options.timing, options.recordingThreads).execute();
-    slot.exports.take(declaration, state_->frame.objects);
-  } catch (...) {
-    state_->abandon(slot);
-    throw;
-  }
-  state_->closeSlot(slot, FrameInFlight::State::submitted);
-  return {slot.frame};
+  return {state_->submit(graph.declaration(), options)};
 }
 
 void Executor::wait(FrameToken frame) {
@@ -90,14 +53,7 @@ void Executor::wait(FrameToken frame) {
 }
 
 bool Executor::isFinished(FrameToken frame) const {
-  for (const FrameInFlight& slot : state_->slots) {
-    if (slot.state != FrameInFlight::State::submitted || slot.frame > frame.number) continue;
-    for (const SentSubmission& sent : slot.sent) {
-      const VkSemaphore timeline = state_->timelines[sent.queue].semaphore.get();
-      if (state_->backend.timelineValue(timeline) < sent.value) return false;
-    }
-  }
-  return true;
+  return state_->isFinished(frame.number);
 }
 
 void Executor::execute(const Graph& graph, const ExecuteOptions& options) {
@@ -105,61 +61,46 @@ void Executor::execute(const Graph& graph, const ExecuteOptions& options) {
 }
 
 void Executor::record(const Graph& graph, VkCommandBuffer commands, const ExecuteOptions& options) {
-  const Declaration& declaration = graph.declaration();
-  FrameInFlight& slot = state_->openSlot();
-  slot.start = Clock::now();
-  CompileOptions compile = compileOptionsOf({.compile = options.compile}, state_->slots.size());
-  compile.useQueues = false;
-  try {
-    state_->prepare(declaration, compile, slot, Timing::none);
-    FrameRunner(*state_, slot, Timing::none, 1).record(commands);
-    slot.exports.take(declaration, state_->frame.objects);
-  } catch (...) {
-    state_->abandon(slot);
-    throw;
-  }
-  slot.capture.frameWallMs = millisecondsSince(slot.start);
-  std::swap(state_->capture, slot.capture);
-  state_->closeSlot(slot, FrameInFlight::State::recorded);
+  state_->record(graph.declaration(), commands, options.compile);
 }
 
 const Plan& Executor::plan() const {
   static const Plan kEmpty;
-  return state_->current != nullptr ? state_->current->plan : kEmpty;
+  const Plan* current = state_->plans().current();
+  return current != nullptr ? *current : kEmpty;
 }
 
 const Capture& Executor::capture() const {
-  return state_->capture;
+  return state_->capture();
 }
 
 VkImage Executor::exportedImage(Image image) const {
-  return exporterOf(state_->slots, image).exports.objects[image.resource].image;
+  return exporterOf(state_->frames(), image).exports.objects[image.resource].image;
 }
 
 VkBuffer Executor::exportedBuffer(Buffer buffer) const {
-  return exporterOf(state_->slots, buffer).exports.objects[buffer.resource].buffer;
+  return exporterOf(state_->frames(), buffer).exports.objects[buffer.resource].buffer;
 }
 
 std::span<const std::byte> Executor::mapped(Buffer buffer) const {
-  const FrameInFlight& slot = exporterOf(state_->slots, buffer);
-  if (slot.state == FrameInFlight::State::submitted) {
+  const FrameInFlight& frame = exporterOf(state_->frames(), buffer);
+  if (frame.state == FrameInFlight::State::submitted) {
     refuse(Misuse::unfinishedFrame, "the frame that fills the buffer was not waited for", "call wait() before");
   }
-  const ResourceObjects& bound = slot.exports.objects[buffer.resource];
-  if (bound.address == nullptr) return {};
-  return {bound.address, static_cast<std::size_t>(slot.exports.sizes[buffer.resource])};
+  const std::byte* address = frame.exports.objects[buffer.resource].address;
+  if (address == nullptr) return {};
+  return {address, static_cast<std::size_t>(frame.exports.sizes[buffer.resource])};
 }
 
 uint64_t Executor::plansCompiled() const {
-  return state_->compiled;
+  return state_->plans().compiled();
 }
 uint64_t Executor::plansReused() const {
-  return state_->reused;
+  return state_->plans().reused();
 }
 
 void Executor::clear() {
-  state_->waitForAll();
-  state_->forget();
+  state_->clear();
 }
 
 }  // namespace lensgraph::rendergraph

@@ -1,216 +1,220 @@
-// Slots and their frames: opened, filled, waited for, given up.
+// Opens a frame in flight, prepares plan and objects, has the runner record and submit, and closes the frame; waits for
+// frames and takes their times.
 #include "rendergraph/execute/frame/executor_state.h"
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <string>
 #include <utility>
 
-#include "rendergraph/compiler.h"
+#include "rendergraph/declare/declaration.h"
 #include "rendergraph/inspect/capture_builder.h"
 
 namespace lensgraph::rendergraph {
 
-ExecutorState::ExecutorState(Backend& device, const ExecutorOptions& chosen)
-    : backend(device), options(chosen), persistent(device, deletionQueue), slots(chosen.framesInFlight), frame(device) {
-  for (uint32_t i = 0; i < slots.size(); ++i) slots[i].index = i;
+namespace {
+
+CompileOptions compileOptionsOf(const ExecuteOptions& options) {
+  CompileOptions compile = options.compile;
+  if (options.timing != Timing::isolated) return compile;
+  compile.mergeRasterPasses = false;  // What is to be timed alone stands alone.
+  compile.splitDistance = 0;
+  compile.useQueues = false;
+  return compile;
 }
 
+}  // namespace
+
+ExecutorState::ExecutorState(Backend& backend, const ExecutorOptions& options)
+    : backend_(backend),
+      plans_(backend, options.framesInFlight),
+      timelines_(backend, plans_),
+      frames_(options.framesInFlight),
+      context_(backend),
+      runner_(backend, options, context_, timelines_, plans_) {}
+
 ExecutorState::~ExecutorState() {
-  for (FrameInFlight& slot : slots) {
-    if (slot.state != FrameInFlight::State::submitted) continue;
+  for (const FrameInFlight& frame : frames_.all()) {
+    if (frame.state != FrameInFlight::State::submitted) continue;
     try {
-      waitForDevice(slot, slot.sent);
+      timelines_.wait(frame, frame.sent);
     } catch (...) {
       // The device is lost: it uses nothing any more.
     }
   }
 }
 
-void ExecutorState::makeTimelines() {
-  const std::size_t queues = backend.queues().size();
-  timelines.reserve(queues);
-  while (timelines.size() < queues) {
-    const std::string name = "graph queue " + std::to_string(timelines.size());
-    timelines.push_back({.semaphore = UniqueTimeline(backend, backend.createTimeline(name)), .value = 0});
-  }
-}
+// ---- One frame
 
-Jobs& ExecutorState::jobs(uint32_t threadsWanted) {
-  if (options.jobs != nullptr) return *options.jobs;
-  if (!threads || threads->threads() < threadsWanted) threads = std::make_unique<ThreadPool>(threadsWanted);
-  return *threads;
-}
-
-// ---- Before a frame
-
-FrameInFlight& ExecutorState::openSlot() {
-  FrameInFlight& slot = slots[lastFrame % slots.size()];
-  if (slot.state == FrameInFlight::State::submitted) waitFor(slot.frame);
-  slot.state = FrameInFlight::State::idle;  // A recorded one has finished: the host has promised it.
-  deletionQueue.release(finishedFrame());
-  deletionQueue.setLastUser(lastFrame);
-  slot.importedViews.clear();
-  slot.exports.serial = 0;
-  slot.sent.clear();
-  slot.stamped.clear();
-  for (const UniqueRecorder& recorder : slot.recorders) {
-    if (recorder) backend.resetRecorder(recorder.get());
-  }
-  return slot;
-}
-
-uint64_t ExecutorState::finishedFrame() const {
-  uint64_t finished = lastFrame;
-  for (const FrameInFlight& slot : slots) {
-    if (slot.state != FrameInFlight::State::idle) finished = std::min(finished, slot.frame - 1);
-  }
-  return finished;
-}
-
-void ExecutorState::makeResources(const Declaration& declaration, uint32_t slot) {
-  plans.releaseResources(PlanCache::kWithResources);
-  const auto slotCount = static_cast<uint32_t>(slots.size());
-  if (!current->resources) current->resources = std::make_unique<PlanResources>(slotCount);
+template <class Run>
+uint64_t ExecutorState::runFrame(const Declaration& declaration, const CompileOptions& options, Timing timing,
+                                 FrameInFlight::State state, Run&& run) {
+  const Clock::time_point start = Clock::now();
+  if (timing == Timing::isolated) waitForAll();
+  FrameInFlight& frame = openFrame();
+  frame.start = start;
   try {
-    current->resources->prepare(backend, pool, declaration, current->plan, slot);
+    CompileOptions compile = options;
+    if (frames_.size() > 1) compile.overlappingFrames = true;
+    prepare(declaration, compile, frame, timing);
+    run(frame);
+    frame.exports.take(declaration, context_.objects);
+  } catch (...) {
+    abandon(frame);
+    throw;
+  }
+  context_.declaration = nullptr;
+  frames_.close(frame, state);
+  plans_.commit(frames_.lastFrame());
+  return frame.frame;
+}
+
+uint64_t ExecutorState::submit(const Declaration& declaration, const ExecuteOptions& options) {
+  return runFrame(declaration, compileOptionsOf(options), options.timing, FrameInFlight::State::submitted,
+                  [&](FrameInFlight& frame) { runner_.execute(frame, options.timing, options.recordingThreads); });
+}
+
+void ExecutorState::record(const Declaration& declaration, VkCommandBuffer commands, const CompileOptions& options) {
+  CompileOptions oneQueue = options;
+  oneQueue.useQueues = false;
+  runFrame(declaration, oneQueue, Timing::none, FrameInFlight::State::recorded, [&](FrameInFlight& frame) {
+    runner_.record(frame, commands);
+    frame.capture.frameWallMs = millisecondsSince(frame.start);
+    std::swap(capture_, frame.capture);
+  });
+}
+
+/// The frame in flight that serves the next frame; waits for the frame that it served last.
+FrameInFlight& ExecutorState::openFrame() {
+  FrameInFlight& frame = frames_.next();
+  if (frame.state == FrameInFlight::State::submitted) waitFor(frame.frame);
+  frame.state = FrameInFlight::State::idle;  // A recorded one has finished: the host has promised it.
+  plans_.release(frames_.finishedFrame());
+  plans_.setLastUser(frames_.lastFrame());
+  frame.importedViews.clear();
+  frame.exports.serial = 0;
+  frame.sent.clear();
+  frame.stamped.clear();
+  for (const UniqueRecorder& recorder : frame.recorders) {
+    if (recorder) backend_.resetRecorder(recorder.get());
+  }
+  return frame;
+}
+
+void ExecutorState::prepare(const Declaration& declaration, const CompileOptions& options, FrameInFlight& frame,
+                            Timing timing) {
+  frame.capture.planReused = plans_.select(declaration, options);
+  context_.declaration = &declaration;
+  context_.plan = plans_.current();
+  context_.capture = &frame.capture;
+  context_.start = frame.start;
+  beginCapture(frame.capture, declaration, *plans_.current(), timing);
+  context_.objects.assign(declaration.resources.size(), {});
+  for (uint32_t index = 0; index < declaration.resources.size(); ++index) {
+    const DeclaredResource& resource = declaration.resources[index];
+    if (!resource.imported()) continue;
+    context_.objects[index] = {
+        .image = resource.importedImage, .buffer = resource.importedBuffer, .views = &frame.importedViews};
+  }
+  makeObjects(declaration, frame);
+  plans_.enterInto(context_.objects, declaration, frame.index);
+  context_.events = plans_.events(frame.index);
+  context_.timestamps = VK_NULL_HANDLE;
+  if (timing == Timing::inlineTimestamps) openTimestamps(frame);
+}
+
+void ExecutorState::makeObjects(const Declaration& declaration, FrameInFlight& frame) {
+  try {
+    plans_.makeObjects(declaration, frame.index);
   } catch (const GraphError& error) {
     if (error.misuse() == Misuse::deviceLost) throw;
     // The other plans' objects may be what fills the memory; without them it gets one more chance.
-    plans.releaseResources(1);
+    plans_.giveUpOthers();
     waitForAll();
-    deletionQueue.release(finishedFrame());
+    plans_.release(frames_.finishedFrame());
     try {
-      current->resources->prepare(backend, pool, declaration, current->plan, slot);
+      plans_.makeObjects(declaration, frame.index);
     } catch (const GraphError&) {
       throw error;  // The first one names what did not fit when more was there.
     }
   }
 }
 
-void ExecutorState::prepare(const Declaration& declared, const CompileOptions& compileOptions, FrameInFlight& slot,
-                            Timing timing) {
-  // Problems with handles leave no trace in the structure, so an equal structure does not excuse them.
-  if (!declared.problems.empty()) throw GraphError(declared.problems);
-  current = nullptr;
-  const uint64_t hash = structuralHash(declared, compileOptions);
-  CachedPlan* found = plans.find(hash);
-  slot.capture.planReused = found != nullptr;
-  if (found != nullptr) {
-    ++reused;
-  } else {
-    found = &plans.add(hash, compile(declared, compileOptions, backend));
-    ++compiled;
+void ExecutorState::openTimestamps(FrameInFlight& frame) {
+  constexpr uint32_t kMaxSteps = 4096;  // Later passes stay unmeasured.
+  const auto steps = std::min(kMaxSteps, static_cast<uint32_t>(context_.plan->passes.size()));
+  if (frame.timestampSteps < steps) {
+    const std::string name = "graph frame " + std::to_string(frame.index) + ", timestamps";
+    frame.timestamps = UniqueTimestamps(backend_, backend_.createTimestamps(2 * steps, name));
+    frame.timestampSteps = steps;
   }
-  current = found;
-  frame.declaration = &declared;
-  frame.plan = &found->plan;
-  frame.capture = &slot.capture;
-  frame.start = slot.start;
-  beginCapture(slot.capture, declared, found->plan, timing);
-  frame.objects.assign(declared.resources.size(), {});
-  for (uint32_t index = 0; index < declared.resources.size(); ++index) {
-    const DeclaredResource& resource = declared.resources[index];
-    if (!resource.imported()) continue;
-    frame.objects[index] = {
-        .image = resource.importedImage, .buffer = resource.importedBuffer, .views = &slot.importedViews};
+  if (steps > 0) backend_.resetTimestamps(frame.timestamps.get(), 2 * steps);
+  context_.timestamps = frame.timestamps.get();
+  context_.timestampSteps = steps;
+  for (uint32_t step = 0; step < steps; ++step) {
+    if (context_.isStamped(step)) frame.stamped.push_back(step);
   }
-  makeResources(declared, slot.index);
-  current->resources->bind(current->plan, slot.index, frame.objects);
-  frame.events = current->resources->events(slot.index);
-  persistent.prepare(declared, current->plan, frame.objects);
-  frame.timestamps = VK_NULL_HANDLE;
-  if (timing == Timing::inlineTimestamps) openTimestamps(slot);
 }
 
-void ExecutorState::openTimestamps(FrameInFlight& slot) {
-  constexpr uint32_t kMaxSteps = 4096;  // Later passes stay unmeasured.
-  const auto steps = std::min(kMaxSteps, static_cast<uint32_t>(frame.plan->passes.size()));
-  if (slot.timestampSteps < steps) {
-    const std::string name = "graph frame " + std::to_string(slot.index) + ", timestamps";
-    slot.timestamps = UniqueTimestamps(backend, backend.createTimestamps(2 * steps, name));
-    slot.timestampSteps = steps;
-  }
-  if (steps > 0) backend.resetTimestamps(slot.timestamps.get(), 2 * steps);
-  frame.timestamps = slot.timestamps.get();
-  frame.timestampSteps = steps;
-  for (uint32_t step = 0; step < steps; ++step) {
-    if (frame.isStamped(step)) slot.stamped.push_back(step);
+void ExecutorState::abandon(FrameInFlight& frame) noexcept {
+  context_.declaration = nullptr;
+  frame.exports.serial = 0;
+  frame.importedViews.clear();
+  if (frame.sent.empty()) return;
+  plans_.abandon();
+  try {
+    timelines_.wait(frame, frame.sent);
+    frame.sent.clear();
+  } catch (...) {
+    // The error that ended the frame is the one to report. The device may still be at work: the next call waits again.
+    frames_.close(frame, FrameInFlight::State::submitted);
+    frame.stamped.clear();
+    plans_.setLastUser(frames_.lastFrame());
   }
 }
 
 // ---- After it
 
-void ExecutorState::closeSlot(FrameInFlight& slot, FrameInFlight::State state) {
-  persistent.commit();
-  slot.frame = ++lastFrame;
-  slot.state = state;
-  lastHash = current->hash;
-  frame.declaration = nullptr;
-  deletionQueue.setLastUser(lastFrame);
+void ExecutorState::waitFor(uint64_t number) {
+  while (FrameInFlight* oldest = frames_.oldestUnfinished(number)) finish(*oldest);
 }
 
-void ExecutorState::abandon(FrameInFlight& slot) noexcept {
-  frame.declaration = nullptr;
-  slot.exports.serial = 0;
-  slot.importedViews.clear();
-  if (slot.sent.empty()) return;
-  lastHash = 0;
-  persistent.invalidate();
-  try {
-    waitForDevice(slot, slot.sent);
-    slot.sent.clear();
-  } catch (...) {
-    // The error that ended the frame is the one to report. The device may still be at work: the next call waits again.
-    slot.frame = ++lastFrame;
-    slot.state = FrameInFlight::State::submitted;
-    slot.stamped.clear();
-    deletionQueue.setLastUser(lastFrame);
-  }
+bool ExecutorState::isFinished(uint64_t number) const {
+  return std::ranges::all_of(frames_.all(), [&](const FrameInFlight& frame) {
+    if (frame.state != FrameInFlight::State::submitted || frame.frame > number) return true;
+    return std::ranges::all_of(frame.sent, [&](const SentSubmission& sent) { return timelines_.isFinished(sent); });
+  });
 }
 
-void ExecutorState::waitFor(uint64_t frameNumber) {
-  for (;;) {
-    FrameInFlight* oldest = nullptr;
-    for (FrameInFlight& slot : slots) {
-      if (slot.state != FrameInFlight::State::submitted || slot.frame > frameNumber) continue;
-      if (oldest == nullptr || slot.frame < oldest->frame) oldest = &slot;
-    }
-    if (oldest == nullptr) return;
-    finish(*oldest);
-  }
+void ExecutorState::finish(FrameInFlight& frame) {
+  timelines_.wait(frame, frame.sent);
+  frame.state = FrameInFlight::State::idle;
+  frame.importedViews.clear();
+  plans_.release(frames_.finishedFrame());
+  readTimestamps(frame);
+  frame.capture.frameWallMs = millisecondsSince(frame.start);
+  std::swap(capture_, frame.capture);
 }
 
-void ExecutorState::finish(FrameInFlight& slot) {
-  waitForDevice(slot, slot.sent);
-  slot.state = FrameInFlight::State::idle;
-  slot.importedViews.clear();
-  deletionQueue.release(finishedFrame());
-  readStamps(slot);
-  slot.capture.frameWallMs = millisecondsSince(slot.start);
-  std::swap(capture, slot.capture);
-}
-
-void ExecutorState::readStamps(FrameInFlight& slot) {
-  if (slot.stamped.empty()) return;
-  const double tickMs = backend.nanosecondsPerTick() * 1e-6;
+void ExecutorState::readTimestamps(FrameInFlight& frame) {
+  if (frame.stamped.empty()) return;
+  const double tickMs = backend_.nanosecondsPerTick() * 1e-6;
   const auto between = [&](uint64_t from, uint64_t to) {  // Differences of ticks: a double keeps the nanoseconds.
     return static_cast<double>(static_cast<int64_t>(to - from)) * tickMs;
   };
-  double& frameMs = slot.capture.frameGpuMs;
+  double& frameMs = frame.capture.frameGpuMs;
   frameMs = 0.0;
-  auto next = slot.stamped.begin();
-  for (const SentSubmission& sent : slot.sent) {
+  auto next = frame.stamped.begin();
+  for (const SentSubmission& sent : frame.sent) {
     // The device's clock has its own origin: a submission's first timestamp stands for when it was given to the device.
     uint64_t first = 0;
     double submissionMs = 0.0;
     bool hasFirst = false;
-    for (; next != slot.stamped.end() && sent.hasSteps && *next <= sent.lastStep; ++next) {
+    for (; next != frame.stamped.end() && sent.hasSteps && *next <= sent.lastStep; ++next) {
       std::array<uint64_t, 2> ticks{};
-      backend.readTimestamps(slot.timestamps.get(), 2 * *next, ticks);
+      backend_.readTimestamps(frame.timestamps.get(), 2 * *next, ticks);
       if (!std::exchange(hasFirst, true)) first = ticks[0];
-      CapturedPass& pass = slot.capture.passes[*next];
+      CapturedPass& pass = frame.capture.passes[*next];
       pass.gpuMs = between(ticks[0], ticks[1]);
       pass.gpuStartMs = sent.sentMs + between(first, ticks[0]);
       submissionMs = std::max(submissionMs, between(first, ticks[1]));
@@ -219,59 +223,13 @@ void ExecutorState::readStamps(FrameInFlight& slot) {
   }
 }
 
-const SentSubmission* ExecutorState::unfinished(const FrameInFlight& slot) const {
-  for (const SentSubmission& sent : slot.sent) {
-    try {
-      if (backend.timelineValue(timelines[sent.queue].semaphore.get()) < sent.value) return &sent;
-    } catch (const GraphError&) {
-      return nullptr;  // Not even that can be known.
-    }
+void ExecutorState::clear() {
+  waitForAll();
+  for (FrameInFlight& frame : frames_.all()) {
+    frame.exports = {};
+    frame.importedViews.clear();
   }
-  return nullptr;
-}
-
-void ExecutorState::waitForDevice(const FrameInFlight& slot, std::span<const SentSubmission> sent) {
-  if (sent.empty()) return;
-  waitedSemaphores.assign(timelines.size(), VK_NULL_HANDLE);
-  waitedValues.assign(timelines.size(), 0);
-  for (std::size_t i = 0; i < timelines.size(); ++i) waitedSemaphores[i] = timelines[i].semaphore.get();
-  for (const SentSubmission& one : sent) waitedValues[one.queue] = std::max(waitedValues[one.queue], one.value);
-  VkSemaphoreWaitInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO;
-  info.semaphoreCount = static_cast<uint32_t>(waitedSemaphores.size());
-  info.pSemaphores = waitedSemaphores.data();
-  info.pValues = waitedValues.data();
-  try {
-    backend.waitTimelines(info);
-  } catch (const GraphError& error) {
-    // Nobody knows what of the frames was carried out.
-    lastHash = 0;
-    persistent.invalidateAll();
-    const SentSubmission* stopped = unfinished(slot);
-    if (stopped == nullptr && !slot.sent.empty()) stopped = &slot.sent.back();
-    std::vector<GraphError::Problem> problems = error.problems();
-    if (stopped != nullptr && stopped->hasSteps && problems.front().pass.empty()) {
-      const std::string& first = slot.capture.passes[stopped->firstStep].name;
-      const std::string& last = slot.capture.passes[stopped->lastStep].name;
-      problems.front().pass = first;
-      if (stopped->firstStep != stopped->lastStep) {
-        problems.front().reason += ", between the passes '" + first + "' and '" + last + "'";
-      }
-    }
-    throw GraphError(std::move(problems));
-  }
-}
-
-void ExecutorState::forget() {
-  current = nullptr;
-  lastHash = 0;
-  for (FrameInFlight& slot : slots) {
-    slot.exports = {};
-    slot.importedViews.clear();
-  }
-  persistent.clear();
-  plans.clear();
-  deletionQueue.release(std::numeric_limits<uint64_t>::max());
+  plans_.clear();
 }
 
 }  // namespace lensgraph::rendergraph

@@ -1,98 +1,72 @@
-// The inside of an Executor, shared by the files that implement it.
+// The inside of an Executor: one execution from the declaration to the device, and what waits for it.
 #pragma once
 
 #include <cstdint>
-#include <memory>
-#include <vector>
 
 #include "rendergraph/backend.h"
 #include "rendergraph/capture.h"
-#include "rendergraph/execute/frame/frame_in_flight.h"
-#include "rendergraph/execute/frame/plan_cache.h"
+#include "rendergraph/execute/frame/frame_ring.h"
+#include "rendergraph/execute/frame/frame_runner.h"
+#include "rendergraph/execute/frame/plan_store.h"
+#include "rendergraph/execute/frame/queue_timelines.h"
 #include "rendergraph/execute/frame/recording_context.h"
-#include "rendergraph/execute/frame/step_recorder.h"
-#include "rendergraph/execute/resources/deletion_queue.h"
-#include "rendergraph/execute/resources/persistent_store.h"
-#include "rendergraph/execute/resources/plan_resources.h"
 #include "rendergraph/execute_options.h"
-#include "rendergraph/jobs.h"
 
 namespace lensgraph::rendergraph {
 
-/// Steps recorded into one command buffer, one after the other.
-struct Chunk {
-  uint32_t submission = 0;
-  uint32_t firstStep = 0, steps = 0;
-  uint32_t lane = 0;    // The recorder that records it; a lane's chunks lie next to each other.
-  bool starts = false;  // Begins the frame.
-  bool ends = false;    // Ends its submission.
-  CommandStream commands;
-};
-
-struct QueueTimeline {
-  UniqueTimeline semaphore;
-  uint64_t value = 0;  // Of the last submission that was accepted.
-};
-
-struct ExecutorState {
-  ExecutorState(Backend& device, const ExecutorOptions& chosen);
+/// Between two calls every frame in flight is idle, or its frame has been closed under a number. A frame that breaks off
+/// leaves everything as if it had not been begun, except that persistent content which it may have changed is unknown.
+class ExecutorState {
+ public:
+  /// The backend and the host's jobs outlive the state.
+  ExecutorState(Backend& backend, const ExecutorOptions& options);
+  /// Waits for all submitted frames.
   ~ExecutorState();
+  ExecutorState(const ExecutorState&) = delete;
+  ExecutorState& operator=(const ExecutorState&) = delete;
 
-  // Declared in the order in which things may use one another; destroyed the other way round.
-  Backend& backend;
-  ExecutorOptions options;
-  std::vector<QueueTimeline> timelines;  // By queue; made with the first submission.
-  DeletionQueue deletionQueue;
-  HeapPool pool;
-  PlanCache plans{deletionQueue};
-  PersistentStore persistent;
-  std::vector<FrameInFlight> slots;
+  /// Executes the declaration and gives it to the device. Returns the number of the frame. Throws GraphError, and what
+  /// recordings throw.
+  uint64_t submit(const Declaration& declaration, const ExecuteOptions& options);
+  /// Records the declaration into the host's command buffer. Throws as submit() does.
+  void record(const Declaration& declaration, VkCommandBuffer commands, const CompileOptions& options);
 
-  uint64_t lastFrame = 0;  // Number of the latest frame that was submitted or recorded.
-  uint64_t lastHash = 0;   // Plan of the latest frame; 0: there is none, or it broke off.
-  CachedPlan* current = nullptr;
-  Capture capture;  // Of the latest frame that was waited for, or recorded.
-  uint64_t compiled = 0, reused = 0;
-
-  // During a frame, and kept for their memory:
-  RecordingContext frame;
-  std::vector<std::unique_ptr<StepRecorder>> lanes;
-  std::vector<Chunk> chunks;
-  std::vector<uint64_t> values;  // That stand for the plan's submissions, each on its queue's timeline.
-  std::vector<VkSemaphoreSubmitInfo> waits;
-  std::vector<VkCommandBufferSubmitInfo> buffers;
-  std::vector<VkSemaphore> waitedSemaphores;
-  std::vector<uint64_t> waitedValues;
-  std::unique_ptr<ThreadPool> threads;  // Unless the host gave its own.
-
-  /// The slot for the next frame; waits for the frame that used it last. Throws GraphError (deviceLost, device).
-  FrameInFlight& openSlot();
-  /// Finds or compiles the plan, makes its objects, and fills the frame context. Throws GraphError.
-  void prepare(const Declaration& declaration, const CompileOptions& options, FrameInFlight& slot, Timing timing);
-  /// The frame was submitted or recorded.
-  void closeSlot(FrameInFlight& slot, FrameInFlight::State state);
-  /// The frame broke off. Waits for what was submitted of it.
-  void abandon(FrameInFlight& slot) noexcept;
-  /// Waits for the slot's frame and takes what it measured. Throws GraphError (deviceLost, device).
-  void finish(FrameInFlight& slot);
-  /// Waits for all frames up to this one.
+  /// Waits for all submitted frames up to this number, and takes what they measured. Throws GraphError (deviceLost,
+  /// device).
   void waitFor(uint64_t frame);
-  /// This frame and all before it have finished, as far as the executor was told.
-  uint64_t finishedFrame() const;
-  void waitForAll() { waitFor(lastFrame); }
-  void makeTimelines();
-  /// Waits until these submissions of the slot's frame have finished. Throws GraphError (deviceLost, device) that says
-  /// where the device stopped, as far as that can be known.
-  void waitForDevice(const FrameInFlight& slot, std::span<const SentSubmission> sent);
-  Jobs& jobs(uint32_t threadsWanted);
-  /// Destroys resources and plans. No frame is under way.
-  void forget();
+  void waitForAll() { waitFor(frames_.lastFrame()); }
+  /// Whether waitFor() would return without waiting.
+  bool isFinished(uint64_t frame) const;
+  /// Waits for all frames, then destroys resources and plans.
+  void clear();
+
+  const FrameRing& frames() const { return frames_; }
+  PlanStore& plans() { return plans_; }
+  const PlanStore& plans() const { return plans_; }
+  /// The capture of the latest frame that was waited for, or recorded.
+  const Capture& capture() const { return capture_; }
 
  private:
-  void makeResources(const Declaration& declaration, uint32_t slot);
-  void readStamps(FrameInFlight& slot);
-  void openTimestamps(FrameInFlight& slot);
-  const SentSubmission* unfinished(const FrameInFlight& slot) const;
+  /// What the runner does with a prepared frame.
+  template <class Run>
+  uint64_t runFrame(const Declaration& declaration, const CompileOptions& options, Timing timing,
+                    FrameInFlight::State state, Run&& run);
+  FrameInFlight& openFrame();
+  void prepare(const Declaration& declaration, const CompileOptions& options, FrameInFlight& frame, Timing timing);
+  void makeObjects(const Declaration& declaration, FrameInFlight& frame);
+  void openTimestamps(FrameInFlight& frame);
+  void abandon(FrameInFlight& frame) noexcept;
+  void finish(FrameInFlight& frame);
+  void readTimestamps(FrameInFlight& frame);
+
+  // In the order in which they use one another; destroyed the other way round.
+  Backend& backend_;
+  PlanStore plans_;
+  QueueTimelines timelines_;
+  FrameRing frames_;
+  RecordingContext context_;
+  FrameRunner runner_;
+  Capture capture_;
 };
 
 }  // namespace lensgraph::rendergraph

@@ -1,29 +1,20 @@
-// What belongs to one of the frames in flight; used again when its frame has finished.
+// What belongs to one frame in flight. It serves one frame after the other: the next one when the last has finished.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
 #include "rendergraph/capture.h"
+#include "rendergraph/execute/frame/export_table.h"
 #include "rendergraph/execute/frame/recording_context.h"
-#include "rendergraph/execute/resources/resource_table.h"
 #include "rendergraph/execute/resources/unique_handle.h"
 #include "rendergraph/execute/resources/view_cache.h"
 
 namespace lensgraph::rendergraph {
 
-/// What a frame exported, so that it can be looked up when the graph is gone.
-struct ExportTable {
-  uint32_t serial = 0;  // Of the declaration; 0: none.
-  ResourceTable objects;
-  std::vector<uint8_t> exported;
-  std::vector<VkDeviceSize> sizes;  // Of buffers, bytes.
-  void take(const Declaration& declaration, const ResourceTable& table);
-};
-
 /// One vkQueueSubmit2 of a frame.
 struct SentSubmission {
-  uint32_t submission = 0;  // Of the plan.
+  uint32_t submission = 0;  // Index in Plan::submissions.
   uint32_t queue = 0;
   uint64_t value = 0;                    // That the queue's timeline reaches with it.
   uint32_t firstStep = 0, lastStep = 0;  // Inclusive.
@@ -39,7 +30,7 @@ struct FrameInFlight {
   };
   State state = State::idle;
   uint32_t index = 0;
-  uint64_t frame = 0;  // Number of the latest one.
+  uint64_t frame = 0;  // Number of the latest frame that it served; 0: none yet.
   std::vector<SentSubmission> sent;
   std::vector<UniqueRecorder> recorders;  // By lane, then by queue. None for pairs that never occurred.
   UniqueTimestamps timestamps;

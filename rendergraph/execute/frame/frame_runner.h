@@ -2,24 +2,49 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
+#include <vector>
 
-#include "rendergraph/execute/frame/executor_state.h"
+#include "rendergraph/backend.h"
+#include "rendergraph/execute/frame/frame_in_flight.h"
+#include "rendergraph/execute/frame/plan_store.h"
+#include "rendergraph/execute/frame/queue_timelines.h"
+#include "rendergraph/execute/frame/recording_context.h"
+#include "rendergraph/execute/frame/step_recorder.h"
+#include "rendergraph/execute_options.h"
+#include "rendergraph/jobs.h"
 
 namespace lensgraph::rendergraph {
 
+/// A segment is the submissions up to the next host pass; a chunk is the steps of one command buffer; a lane is the
+/// chunks that one thread records, one after the other, with one recorder for each queue.
+/// The runner serves one frame at a time and keeps its memory, so that an unchanged frame allocates nothing.
 class FrameRunner {
  public:
-  /// `threads`: that record at once, at least 1.
-  FrameRunner(ExecutorState& state, FrameInFlight& slot, Timing timing, uint32_t threads)
-      : state_(state), slot_(slot), timing_(timing), threads_(threads) {}
+  /// All of them outlive the runner.
+  FrameRunner(Backend& backend, const ExecutorOptions& options, RecordingContext& context, QueueTimelines& timelines,
+              PlanStore& plans);
 
-  /// Records and submits everything. What a recording throws passes through.
-  void execute();
-  /// Records everything into the host's command buffer.
-  void record(VkCommandBuffer commands);
+  /// Records and submits everything. `threads`: how many record at once, at least 1. What a recording throws passes
+  /// through. Precondition: the context is prepared for this frame.
+  void execute(FrameInFlight& frame, Timing timing, uint32_t threads);
+  /// Records everything into the host's command buffer, on one thread.
+  void record(FrameInFlight& frame, VkCommandBuffer commands);
 
  private:
+  /// Steps recorded into one command buffer, one after the other.
+  struct Chunk {
+    uint32_t submission = 0;
+    uint32_t firstStep = 0, steps = 0;
+    uint32_t lane = 0;    // A lane's chunks lie next to each other.
+    bool starts = false;  // Begins the frame.
+    bool ends = false;    // Ends its submission.
+    CommandStream commands;
+  };
+
+  const Plan& plan() const { return *context_.plan; }
+  void begin(FrameInFlight& frame, Timing timing, uint32_t threads);
   bool needsStart() const;
   void recordStart(const CommandStream& commands);
   bool endsWithHostPass(uint32_t submission) const;
@@ -35,12 +60,28 @@ class FrameRunner {
   void submitSegment(uint32_t first, uint32_t last);
   void waitForSubmission(uint32_t submission);
   UniqueRecorder& recorder(uint32_t lane, uint32_t queue);
+  Jobs& jobs();
   void refuseHostPasses() const;
 
-  ExecutorState& state_;
-  FrameInFlight& slot_;
-  Timing timing_;
-  uint32_t threads_;
+  Backend& backend_;
+  bool severalInFlight_;
+  Jobs* hostJobs_;
+  RecordingContext& context_;
+  QueueTimelines& timelines_;
+  PlanStore& plans_;
+
+  // Of the frame that is being executed:
+  FrameInFlight* frame_ = nullptr;
+  Timing timing_ = Timing::none;
+  uint32_t threads_ = 1;
+  std::vector<Chunk> chunks_;            // Of the current segment.
+  std::vector<uint64_t> reachedValues_;  // By submission of the plan: value of its queue's timeline when it is done.
+
+  // Reused from frame to frame:
+  std::vector<std::unique_ptr<StepRecorder>> lanes_;
+  std::vector<VkSemaphoreSubmitInfo> waits_;
+  std::vector<VkCommandBufferSubmitInfo> buffers_;
+  std::unique_ptr<ThreadPool> pool_;  // Made when several threads are first asked for, unless the host gave its jobs.
 };
 
 }  // namespace lensgraph::rendergraph

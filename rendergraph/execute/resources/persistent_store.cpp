@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "rendergraph/declare/declaration.h"
 #include "rendergraph/execute/resources/error_names.h"
@@ -48,38 +49,29 @@ PersistentStore::Entry& PersistentStore::entryFor(const DeclaredResource& resour
 
 void PersistentStore::retire(Entry& entry) {
   for (Side& side : entry.sides) {
-    if (side.heap) deletionQueue_.add(std::move(side));
+    if (side.object.heap) deletionQueue_.add(std::move(side));
     side = Side{};
   }
 }
 
 void PersistentStore::make(const DeclaredResource& resource, const Entry& entry, Side& side) {
+  const ObjectRequest request{.isImage = entry.isImage,
+                              .imageDesc = entry.imageDesc,
+                              .bufferDesc = entry.bufferDesc,
+                              .imageUsage = entry.imageUsage,
+                              .bufferUsage = entry.bufferUsage,
+                              .concurrent = entry.concurrent,
+                              .name = resource.key};
+  const MemoryRequirements needs = entry.isImage ? backend_.requirements(entry.imageDesc, entry.imageUsage)
+                                                 : backend_.requirements(entry.bufferDesc, entry.bufferUsage);
   Side made;
-  if (entry.isImage) {
-    const ImageRequest request{entry.imageDesc, entry.imageUsage, entry.concurrent, resource.key};
-    const MemoryRequirements needs = backend_.requirements(entry.imageDesc, entry.imageUsage);
-    if (needs.dedicated) {
-      const DedicatedImage both = backend_.createDedicatedImage(request);
-      made.heap = UniqueHeap(backend_, both.heap);
-      made.image = UniqueImage(backend_, both.image);
-    } else {
-      made.heap = UniqueHeap(backend_,
-                             backend_.createHeap(needs.size, needs.memoryTypeBits, MemoryKind::device, resource.name));
-      made.image = UniqueImage(backend_, backend_.createImage(request, made.heap.get(), 0));
-    }
+  if (needs.dedicated) {
+    made.object = makeDedicated(backend_, request);
   } else {
-    const BufferRequest request{entry.bufferDesc, entry.bufferUsage, entry.concurrent, resource.key};
-    const MemoryRequirements needs = backend_.requirements(entry.bufferDesc, entry.bufferUsage);
-    const MemoryKind memory = entry.bufferDesc.memory;
-    if (needs.dedicated) {
-      const DedicatedBuffer both = backend_.createDedicatedBuffer(request);
-      made.heap = UniqueHeap(backend_, both.heap);
-      made.buffer = UniqueBuffer(backend_, both.buffer);
-    } else {
-      made.heap = UniqueHeap(backend_, backend_.createHeap(needs.size, needs.memoryTypeBits, memory, resource.name));
-      made.buffer = UniqueBuffer(backend_, backend_.createBuffer(request, made.heap.get(), 0));
-    }
-    if (memory != MemoryKind::device) made.address = static_cast<std::byte*>(backend_.hostAddress(made.heap.get()));
+    const MemoryKind memory = entry.isImage ? MemoryKind::device : entry.bufferDesc.memory;
+    UniqueHeap heap(backend_, backend_.createHeap(needs.size, needs.memoryTypeBits, memory, resource.name));
+    made.object = makeInHeap(backend_, request, heap.get(), 0);
+    made.object.heap = std::move(heap);
   }
   side = std::move(made);
 }
@@ -97,14 +89,13 @@ void PersistentStore::prepare(const Declaration& declaration, const Plan& plan, 
                            : resource.origin == Origin::historyPrevious ? entry.previous
                                                                         : 1 - entry.previous;
     Side& side = entry.sides[index];
-    if (!side.heap) namingResource(resource.name, [&] { make(resource, entry, side); });
+    if (!side.object.heap) namingResource(resource.name, [&] { make(resource, entry, side); });
     current_.push_back(
         {.entry = &entry,
          .side = &side,
          .restLayout = persistent.restLayout,
          .swaps = resource.origin == Origin::historyNext && written(declaration, plan, persistent.resource)});
-    table[persistent.resource] = {
-        .image = side.image.get(), .buffer = side.buffer.get(), .views = &side.views, .address = side.address};
+    table[persistent.resource] = side.object.entry();
   }
 }
 
@@ -129,7 +120,7 @@ void PersistentStore::barrier(const CommandStream& commands, const Current& curr
     image.oldLayout = from;
     image.newLayout = to;
     image.srcQueueFamilyIndex = image.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-    image.image = current.side->image.get();
+    image.image = current.side->object.image.get();
     image.subresourceRange = {aspectsOf(current.entry->imageDesc.format), 0, VK_REMAINING_MIP_LEVELS, 0,
                               VK_REMAINING_ARRAY_LAYERS};
     dependency.imageMemoryBarrierCount = 1;
@@ -141,7 +132,7 @@ void PersistentStore::barrier(const CommandStream& commands, const Current& curr
     buffer.dstStageMask = memory.dstStageMask;
     buffer.dstAccessMask = memory.dstAccessMask;
     buffer.srcQueueFamilyIndex = buffer.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-    buffer.buffer = current.side->buffer.get();
+    buffer.buffer = current.side->object.buffer.get();
     buffer.size = VK_WHOLE_SIZE;
     dependency.bufferMemoryBarrierCount = 1;
     dependency.pBufferMemoryBarriers = &buffer;
@@ -150,9 +141,9 @@ void PersistentStore::barrier(const CommandStream& commands, const Current& curr
 }
 
 void PersistentStore::recordZero(const CommandStream& commands, const Current& current) {
-  const VkImage image = current.side->image.get();
+  const VkImage image = current.side->object.image.get();
   if (!current.entry->isImage) {
-    backend_.fillBuffer(commands, current.side->buffer.get(), 0, VK_WHOLE_SIZE);
+    backend_.fillBuffer(commands, current.side->object.buffer.get(), 0, VK_WHOLE_SIZE);
     barrier(commands, current, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_UNDEFINED);
     return;
   }

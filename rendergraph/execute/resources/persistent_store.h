@@ -9,9 +9,8 @@
 #include <vector>
 
 #include "rendergraph/execute/resources/deletion_queue.h"
+#include "rendergraph/execute/resources/graph_objects.h"
 #include "rendergraph/execute/resources/resource_table.h"
-#include "rendergraph/execute/resources/unique_handle.h"
-#include "rendergraph/execute/resources/view_cache.h"
 #include "rendergraph/plan.h"
 
 namespace lensgraph::rendergraph {
@@ -45,11 +44,7 @@ class PersistentStore {
 
  private:
   struct Side {
-    UniqueHeap heap;
-    UniqueImage image;
-    UniqueBuffer buffer;
-    ViewCache views;
-    std::byte* address = nullptr;
+    GraphObject object;
     bool valid = false;  // Zeroed or written, and in `layout`.
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
   };

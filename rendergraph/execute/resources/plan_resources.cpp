@@ -1,7 +1,5 @@
-// Makes and shares memory.
+// Makes the objects of a plan in heaps of the pool, or with memory of their own where the device wants that.
 #include "rendergraph/execute/resources/plan_resources.h"
-
-#include <algorithm>
 
 #include "rendergraph/declare/declaration.h"
 #include "rendergraph/execute/resources/error_names.h"
@@ -10,32 +8,16 @@ namespace lensgraph::rendergraph {
 
 namespace {
 
-/// The object of one placement in `heap`, or with memory of its own.
-template <class Object>
-void makeObject(Backend& backend, const DeclaredResource& resource, const Placement& placement, bool dedicated,
-                HeapId heap, Object& object) {
-  if (resource.isImage) {
-    const ImageRequest request{resource.image, placement.imageUsage, placement.concurrent, resource.name};
-    if (dedicated) {
-      const DedicatedImage made = backend.createDedicatedImage(request);
-      object.dedicated = UniqueHeap(backend, made.heap);
-      object.image = UniqueImage(backend, made.image);
-    } else {
-      object.image = UniqueImage(backend, backend.createImage(request, heap, placement.offset));
-    }
-    return;
-  }
-  const BufferRequest request{resource.buffer, placement.bufferUsage, placement.concurrent, resource.name};
-  if (dedicated) {
-    const DedicatedBuffer made = backend.createDedicatedBuffer(request);
-    object.dedicated = UniqueHeap(backend, made.heap);
-    object.buffer = UniqueBuffer(backend, made.buffer);
-  } else {
-    object.buffer = UniqueBuffer(backend, backend.createBuffer(request, heap, placement.offset));
-  }
-  if (resource.buffer.memory == MemoryKind::device) return;
-  auto* address = static_cast<std::byte*>(backend.hostAddress(dedicated ? object.dedicated.get() : heap));
-  object.address = address + (dedicated ? 0 : placement.offset);
+GraphObject objectOf(Backend& backend, const DeclaredResource& resource, const Placement& placement, bool dedicated,
+                     HeapId heap) {
+  const ObjectRequest request{.isImage = resource.isImage,
+                              .imageDesc = resource.image,
+                              .bufferDesc = resource.buffer,
+                              .imageUsage = placement.imageUsage,
+                              .bufferUsage = placement.bufferUsage,
+                              .concurrent = placement.concurrent,
+                              .name = resource.name};
+  return dedicated ? makeDedicated(backend, request) : makeInHeap(backend, request, heap, placement.offset);
 }
 
 /// The resource that has most to do with the size of a heap.
@@ -48,30 +30,6 @@ std::string_view largestIn(const Declaration& declaration, const Plan& plan, uin
 }
 
 }  // namespace
-
-HeapId HeapPool::acquire(Backend& backend, const PlannedHeap& planned, uint32_t slot, Heaps& taken) {
-  std::erase_if(heaps_, [](const std::weak_ptr<PooledHeap>& heap) { return heap.expired(); });
-  std::shared_ptr<PooledHeap> best;
-  for (const std::weak_ptr<PooledHeap>& weak : heaps_) {
-    const std::shared_ptr<PooledHeap> heap = weak.lock();
-    const bool fits = heap->planned.memory == planned.memory &&
-                      heap->planned.memoryTypeBits == planned.memoryTypeBits && heap->planned.size >= planned.size &&
-                      (planned.memory == MemoryKind::device || heap->slot == slot);
-    const bool isTaken = std::find(taken.begin(), taken.end(), heap) != taken.end();
-    if (fits && !isTaken && (!best || heap->planned.size < best->planned.size)) best = heap;
-  }
-  if (!best) {
-    best = std::make_shared<PooledHeap>();
-    best->planned = planned;
-    best->slot = slot;
-    best->heap =
-        UniqueHeap(backend, backend.createHeap(planned.size, planned.memoryTypeBits, planned.memory, "graph heap"));
-    heaps_.push_back(best);
-  }
-  const HeapId id = best->heap.get();
-  taken.push_back(std::move(best));
-  return id;
-}
 
 void PlanResources::make(Backend& backend, HeapPool& pool, const Declaration& declaration, const Plan& plan,
                          uint32_t slot, bool hostVisible, Objects& into) {
@@ -91,7 +49,7 @@ void PlanResources::make(Backend& backend, HeapPool& pool, const Declaration& de
     if ((heap.memory != MemoryKind::device) != hostVisible) continue;
     const DeclaredResource& resource = declaration.resources[placement.resource];
     namingResource(resource.name, [&] {
-      makeObject(backend, resource, placement, heap.dedicated, made.heaps[placement.heap], made.objects[i]);
+      made.objects[i] = objectOf(backend, resource, placement, heap.dedicated, made.heaps[placement.heap]);
     });
   }
   made.complete = true;
@@ -111,13 +69,11 @@ void PlanResources::prepare(Backend& backend, HeapPool& pool, const Declaration&
   }
 }
 
-void PlanResources::bind(const Plan& plan, uint32_t slot, ResourceTable& table) {
+void PlanResources::enterInto(ResourceTable& table, const Plan& plan, uint32_t slot) {
   for (std::size_t i = 0; i < plan.placements.size(); ++i) {
     const Placement& placement = plan.placements[i];
     const bool hostVisible = plan.heaps[placement.heap].memory != MemoryKind::device;
-    Object& object = (hostVisible ? slots_[slot] : device_).objects[i];
-    table[placement.resource] = {
-        .image = object.image.get(), .buffer = object.buffer.get(), .views = &object.views, .address = object.address};
+    table[placement.resource] = (hostVisible ? slots_[slot] : device_).objects[i].entry();
   }
 }
 

@@ -5,36 +5,20 @@
 // or writes while the device works on another frame exists once for each frame in flight (slot), as do events.
 #pragma once
 
-#include <memory>
 #include <span>
 #include <vector>
 
+#include "rendergraph/execute/resources/graph_objects.h"
+#include "rendergraph/execute/resources/heap_pool.h"
 #include "rendergraph/execute/resources/resource_table.h"
 #include "rendergraph/execute/resources/unique_handle.h"
-#include "rendergraph/execute/resources/view_cache.h"
 #include "rendergraph/plan.h"
 
 namespace lensgraph::rendergraph {
 
 struct Declaration;
 
-struct PooledHeap {
-  PlannedHeap planned;  ///< With its real size.
-  uint32_t slot = 0;    ///< Of host-visible memory.
-  UniqueHeap heap;
-};
-
-class HeapPool {
- public:
-  using Heaps = std::vector<std::shared_ptr<PooledHeap>>;
-  /// A heap at least as large, which is not in `taken`; added to it. Host-visible ones serve one slot only.
-  /// Throws GraphError (outOfMemory, device).
-  HeapId acquire(Backend& backend, const PlannedHeap& planned, uint32_t slot, Heaps& taken);
-
- private:
-  std::vector<std::weak_ptr<PooledHeap>> heaps_;
-};
-
+/// Slots are the frames in flight of the executor, by index.
 class PlanResources {
  public:
   explicit PlanResources(uint32_t slots) : slots_(slots) {}
@@ -42,23 +26,16 @@ class PlanResources {
   /// Makes what the slot needs and does not exist, and unsets its events. The device has finished the slot's frame
   /// before. Throws GraphError that names the resource; what was made remains, for the next attempt.
   void prepare(Backend& backend, HeapPool& pool, const Declaration& declaration, const Plan& plan, uint32_t slot);
-  /// Enters the plan's own resources. Precondition: prepare() for this slot.
-  void bind(const Plan& plan, uint32_t slot, ResourceTable& table);
+  /// Enters the objects of the plan's placements into the table. Precondition: prepare() for this slot.
+  void enterInto(ResourceTable& table, const Plan& plan, uint32_t slot);
   std::span<const UniqueEvent> events(uint32_t slot) const { return slots_[slot].events; }
 
  private:
-  struct Object {
-    UniqueHeap dedicated;  // Instead of a pooled heap.
-    UniqueImage image;
-    UniqueBuffer buffer;
-    ViewCache views;
-    std::byte* address = nullptr;
-  };
   /// Objects by placement; those of the other kind of memory are empty. Destroyed before the heaps, views before images.
   struct Objects {
     HeapPool::Heaps taken;
     std::vector<HeapId> heaps;  // By planned heap; 0: of the other kind, or dedicated.
-    std::vector<Object> objects;
+    std::vector<GraphObject> objects;
     std::vector<UniqueEvent> events;
     bool complete = false;
   };

@@ -2,7 +2,6 @@
 // in which order submissions, events and renderings are legal.
 #include "rendergraph/compiler.h"
 #include "rendergraph/execute/frame/executor_state.h"
-#include "rendergraph/execute/frame/frame_runner.h"
 #include "support/executor_support.h"
 
 namespace lensgraph {
@@ -18,26 +17,22 @@ namespace {
 class HandMade {
  public:
   explicit HandMade(FakeBackend& backend, uint32_t framesInFlight = 1)
-      : backend_(backend), state_(backend, {.framesInFlight = framesInFlight}) {}
+      : state_(backend, {.framesInFlight = framesInFlight}), framesInFlight_(framesInFlight) {}
 
   template <class Rewrite>
   void run(const Graph& graph, Rewrite&& rewrite, uint32_t threads = 1) {
-    FrameInFlight& slot = state_.openSlot();
     // The plan that the executor finds under the declaration's hash is the one made by hand.
-    const CompileOptions options;
+    const CompileOptions options{.overlappingFrames = framesInFlight_ > 1};
     const uint64_t hash = structuralHash(graph.declaration(), options);
-    if (state_.plans.find(hash) == nullptr) {
-      rewrite(state_.plans.add(hash, compile(graph.declaration(), options, NominalDevice())).plan);
-    }
-    state_.prepare(graph.declaration(), options, slot, Timing::none);
-    FrameRunner(state_, slot, Timing::none, threads).execute();
-    state_.closeSlot(slot, FrameInFlight::State::submitted);
+    PlanCache& plans = state_.plans().cache();
+    if (plans.find(hash) == nullptr) rewrite(plans.add(hash, compile(graph.declaration(), {}, NominalDevice())).plan);
+    state_.submit(graph.declaration(), {.compile = options, .recordingThreads = threads});
   }
-  ExecutorState& state() { return state_; }
+  void waitForAll() { state_.waitForAll(); }
 
  private:
-  FakeBackend& backend_;
   ExecutorState state_;
+  uint32_t framesInFlight_;
 };
 
 /// `count` compute passes, each reading what the one before wrote.
@@ -102,7 +97,7 @@ TEST(CarriedOut, SubmissionsWaitForOneAnotherThroughTheQueuesTimelines) {
     EXPECT_EQ(graphics->queue, 0u);
     EXPECT_THAT(labelsOf(*graphics), ElementsAre("pass 3"));
     EXPECT_EQ(graphics->waits.size(), 2u);
-    executor.state().waitForAll();
+    executor.waitForAll();
     for (const auto& submitted : backend.submissions) EXPECT_TRUE(submitted.finished);
   }
 }
@@ -150,7 +145,7 @@ TEST(CarriedOut, SplitBarriersAreEventsOfEachFrameInFlight) {
     const auto& lines = backend.submissions.back().lines;
     EXPECT_LT(std::ranges::find(lines, "set event"), std::ranges::find(lines, "label pass 1"));
     EXPECT_GT(std::ranges::find(lines, "wait event"), std::ranges::find(lines, "label pass 3"));
-    executor.state().waitForAll();
+    executor.waitForAll();
   }
   EXPECT_THAT(backend.living, IsEmpty());
   expectClean(backend);
@@ -257,7 +252,7 @@ TEST(CarriedOut, DedicatedMemoryHoldsOneResourceAndIsNeverPooled) {
     executor.run(other, dedicate);
     EXPECT_EQ(backend.countLiving("dedicated heap"), 3u);
     EXPECT_EQ(backend.countLiving("heap"), 0u);
-    executor.state().waitForAll();
+    executor.waitForAll();
   }
   EXPECT_THAT(backend.living, IsEmpty());
   expectClean(backend);
