@@ -73,27 +73,29 @@ void addTechnique(CLI::App& app, TechniqueArguments& technique, bool required) {
       ->type_name("FILE.json");
 }
 
-void addLooks(CLI::App& app, LookArguments& look) {
-  app.add_option("--capture", look.capture, "Write times, memory, device, parameters (see capture-view, capture-diff)")
+void addInspection(CLI::App& app, InspectionArguments& inspection) {
+  app.add_option("--capture", inspection.capture,
+                 "Write times, memory, device, parameters (see capture-view, capture-diff)")
       ->type_name("FILE.json");
-  app.add_option("--trace", look.trace, "Write a timeline that Perfetto opens")->type_name("FILE.json");
-  app.add_option("--capture-frames", look.frames, "Frames to measure after a first one that is not (default 5)")
+  app.add_option("--trace", inspection.trace, "Write a timeline that Perfetto opens")->type_name("FILE.json");
+  app.add_option("--capture-frames", inspection.frames, "Frames to measure after a first one that is not (default 5)")
       ->type_name("N")
       ->check(CLI::Range(1, 1000));
-  app.add_option("--timing", look.timing,
+  app.add_option("--timing", inspection.timing,
                  "inline: timestamps in the frame; isolated: each pass by itself, right on every device. Default: "
                  "isolated on CPU devices, inline on others")
       ->type_name("MODE")
       ->check(CLI::IsMember({"inline", "isolated"}));
-  app.add_option("--dump-image", look.dumps,
+  app.add_option("--dump-image", inspection.dumps,
                  "Write an image inside the graph, as it is after the pass; may be repeated. list: say which there are")
       ->type_name("PASS/RESOURCE[MIP,LAYER]=FILE.exr|png")
       ->allow_extra_args(false);
 }
 
 /// `output` may be left out only where nothing but a list is asked for.
-void requireOutput(const std::string& subcommand, const std::filesystem::path& output, const LookArguments& look) {
-  if (output.empty() && look.dumps != std::vector<std::string>{"list"}) {
+void requireOutput(const std::string& subcommand, const std::filesystem::path& output,
+                   const InspectionArguments& inspection) {
+  if (output.empty() && inspection.dumps != std::vector<std::string>{"list"}) {
     failUsage(subcommand, "--output is required", "see lensgraph " + subcommand + " --help");
   }
 }
@@ -107,11 +109,11 @@ Action addRender(CLI::App& app) {
   addTechnique(*sub, a->technique, false);
   addSize(*sub, a->size);
   addExposure(*sub, a->exposureEv);
-  addLooks(*sub, a->look);
+  addInspection(*sub, a->inspection);
   sub->add_option("--depth-out", a->depthOut, "Write view depth in metres")->type_name("FILE.exr");
   sub->add_option("-o,--output", a->output, "Picture to write: .exr, .png or .hdr")->type_name("OUT");
   return [a](const GlobalArguments& global) {
-    requireOutput("render", a->output, a->look);
+    requireOutput("render", a->output, a->inspection);
     return runRender(*a, global);
   };
 }
@@ -131,10 +133,10 @@ Action addApply(CLI::App& app) {
   sub->add_option("--focus", a->focusDistance, "Focus distance in metres, or infinity")->type_name("D")->required();
   addTechnique(*sub, a->technique, true);
   addExposure(*sub, a->exposureEv);
-  addLooks(*sub, a->look);
+  addInspection(*sub, a->inspection);
   sub->add_option("-o,--output", a->output, "Picture to write: .exr, .png or .hdr")->type_name("OUT");
   return [a](const GlobalArguments& global) {
-    requireOutput("apply", a->output, a->look);
+    requireOutput("apply", a->output, a->inspection);
     return runApply(*a, global);
   };
 }

@@ -28,18 +28,12 @@ void setUpLogging() {
   spdlog::set_default_logger(std::move(logger));
 }
 
-/// FILE: FIELD: reason (remedy). Line breaks and other control characters become spaces: an error is one
-/// line.
-std::string lineOf(const engine::ErrorParts& parts) {
-  std::string line;
-  if (!parts.file.empty()) line += parts.file + ": ";
-  if (!parts.field.empty()) line += parts.field + ": ";
-  line += parts.reason;
-  if (!parts.remedy.empty()) line += " (" + parts.remedy + ")";
-  for (char& c : line) {
+/// Control characters become spaces: an error is one line.
+std::string onOneLine(std::string text) {
+  for (char& c : text) {
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
   }
-  return line;
+  return text;
 }
 
 int guardedRun(int argc, char** argv) {
@@ -50,14 +44,14 @@ int guardedRun(int argc, char** argv) {
       throw engine::Error("standard output cannot be written", engine::ErrorKind::failed);
     return code;
   } catch (const engine::Error& error) {
-    spdlog::error("{}", lineOf(error.parts()));
+    spdlog::error("{}", error.what());
     return error.kind() == engine::ErrorKind::badInput ? kBadInput : kFailed;
   } catch (const rendergraph::GraphError& error) {
-    spdlog::error("{}", lineOf({.file = "render graph", .field = {}, .reason = error.what(), .remedy = {}}));
+    spdlog::error("{}", onOneLine(std::string("render graph: ") + error.what()));
   } catch (const std::bad_alloc&) {
-    spdlog::error("out of memory (try a smaller --size)");
+    spdlog::error("out of memory; try a smaller --size");
   } catch (const std::exception& error) {
-    spdlog::error("{}", lineOf({.file = {}, .field = {}, .reason = error.what(), .remedy = {}}));
+    spdlog::error("{}", onOneLine(error.what()));
   }
   return kFailed;
 }

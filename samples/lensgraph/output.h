@@ -25,7 +25,7 @@ void requireDistinct(std::span<const OutputFile> files);
 /// Extensions of pictures and of depth, as engine/image_io writes them.
 inline constexpr std::string_view kPictureExtensions[] = {".exr", ".png", ".hdr"};
 inline constexpr std::string_view kDepthExtensions[] = {".exr"};
-/// Of images inside the graph: exact values, or a look at them.
+/// Of images inside the graph: exact values (EXR), or a picture of them (PNG).
 inline constexpr std::string_view kDumpExtensions[] = {".exr", ".png"};
 
 /// Warns when an exposure is asked for although the format keeps scene light.

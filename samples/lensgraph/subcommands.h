@@ -28,13 +28,14 @@ struct TechniqueArguments {
   std::optional<std::filesystem::path> config;
 };
 
-/// What to look at beside the picture: times, memory, images inside the graph.
-struct LookArguments {
+/// What to find out beside the picture: times, memory, images inside the graph.
+struct InspectionArguments {
   std::optional<std::filesystem::path> capture, trace;
   std::optional<int> frames;                ///< Measured after one warm-up frame; kDefaultFrames when absent.
   std::optional<std::string> timing;        ///< "inline" or "isolated"; by the device's type when absent.
   std::vector<std::string> dumps;           ///< "PASS/RESOURCE[mip,layer]=FILE", or "list" alone.
   static constexpr int kDefaultFrames = 5;  ///< Few enough to wait for; enough for a median and its spread.
+  bool measures() const { return capture || trace; }
 };
 
 struct RenderArguments {
@@ -42,7 +43,7 @@ struct RenderArguments {
   TechniqueArguments technique;
   std::optional<PictureSize> size;
   std::optional<double> exposureEv;  ///< PNG only.
-  LookArguments look;
+  InspectionArguments inspection;
   std::optional<std::filesystem::path> depthOut;
   std::filesystem::path output;  ///< Empty: none asked for.
 };
@@ -56,7 +57,7 @@ struct ApplyArguments {
   double focusDistance = 0.0;  ///< m; infinity is legal.
   TechniqueArguments technique;
   std::optional<double> exposureEv;
-  LookArguments look;
+  InspectionArguments inspection;
   std::filesystem::path output;  ///< Empty: none asked for.
 };
 int runApply(const ApplyArguments& arguments, const GlobalArguments& global);

@@ -15,9 +15,9 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-class Looks : public cli_test::ProgramTest {
+class Inspection : public cli_test::ProgramTest {
  protected:
-  Looks() {
+  Inspection() {
     writeQuad();
     writeShot(shot());
   }
@@ -48,7 +48,7 @@ class Looks : public cli_test::ProgramTest {
   }
 };
 
-TEST_F(Looks, CaptureHoldsTimesMemoryAndEdgesOfSeveralFrames) {
+TEST_F(Inspection, CaptureHoldsTimesMemoryAndEdgesOfSeveralFrames) {
   render({"--capture", "c.json", "--capture-frames", "3"}, "two_pass_filter");
   const json capture = parsed("c.json"), graph = capture["graph"];
   EXPECT_EQ(capture["format"], "lensgraph capture");
@@ -65,7 +65,7 @@ TEST_F(Looks, CaptureHoldsTimesMemoryAndEdgesOfSeveralFrames) {
   EXPECT_EQ(graph["memory"]["peakBytes"], heaps);
 }
 
-TEST_F(Looks, TimingCanBeChosen) {
+TEST_F(Inspection, TimingCanBeChosen) {
   for (const std::string mode : {"inline", "isolated"}) {
     render({"--capture", "c.json", "--capture-frames", "1", "--timing", mode});
     EXPECT_EQ(parsed("c.json")["graph"]["timing"], mode);
@@ -73,7 +73,7 @@ TEST_F(Looks, TimingCanBeChosen) {
   }
 }
 
-TEST_F(Looks, TraceHasTheMeasuredFramesAndTheirTracks) {
+TEST_F(Inspection, TraceHasTheMeasuredFramesAndTheirTracks) {
   render({"--trace", "t.json", "--capture-frames", "2"});
   int frames = 0, names = 0, counters = 0, onQueue = 0;
   const json trace = parsed("t.json");
@@ -89,7 +89,7 @@ TEST_F(Looks, TraceHasTheMeasuredFramesAndTheirTracks) {
   EXPECT_GT(onQueue, 0);
 }
 
-TEST_F(Looks, ApplyHasThemToo) {
+TEST_F(Inspection, ApplyWritesCapturesTracesAndDumpsToo) {
   writePictures();
   runWell(apply({"-o", "out.exr", "--capture", "c.json", "--trace", "t.json", "--capture-frames", "1", "--dump-image",
                  "two_pass_filter.horizontal/two_pass_filter.color=d.exr"}));
@@ -100,7 +100,7 @@ TEST_F(Looks, ApplyHasThemToo) {
   EXPECT_THAT(runWell(apply({"--dump-image", "list"})), HasSubstr("two_pass_filter.prepare/two_pass_filter.prepared"));
 }
 
-TEST_F(Looks, DumpedImagesAreThoseOfThePasses) {
+TEST_F(Inspection, DumpedImagesAreThoseOfThePasses) {
   render({"--dump-image", "pinhole.opaque/pinhole.color=color.exr", "--dump-image",
           "pinhole.opaque/pinhole.depth[0,0]=depth.exr", "--dump-image", "pinhole.opaque/pinhole.color=color.png",
           "--depth-out", "z.exr", "--capture", "c.json", "--capture-frames", "1"});
@@ -116,14 +116,14 @@ TEST_F(Looks, DumpedImagesAreThoseOfThePasses) {
   }
 }
 
-TEST_F(Looks, ListOfImagesNeedsNoOutput) {
+TEST_F(Inspection, ListOfImagesNeedsNoOutput) {
   const auto list = runWell({"render", "shot.json", "--technique", "accumulation", "--dump-image", "list"});
   EXPECT_THAT(list, HasSubstr("accumulation.view0.opaque/accumulation.view0.color"));
   EXPECT_THAT(list, HasSubstr("accumulation.resolve/accumulation.color")) << "of the last execution";
   EXPECT_FALSE(std::filesystem::exists(folder() / "out.exr"));
 }
 
-TEST_F(Looks, CaptureViewIsOnePage) {
+TEST_F(Inspection, CaptureViewIsOnePage) {
   render({"--capture", "c.json", "--capture-frames", "2"});
   const auto outcome = run({"capture-view", "c.json", "-o", "page.html"});
   if (outcome.status == 1 && outcome.err.find("dagre") != std::string::npos) GTEST_SKIP() << outcome.err;
@@ -132,7 +132,7 @@ TEST_F(Looks, CaptureViewIsOnePage) {
   EXPECT_EQ(runWell({"capture-view", "c.json", "-o", "-"}) == text("page.html"), true);
 }
 
-TEST_F(Looks, CaptureDiffTellsWhatChanged) {
+TEST_F(Inspection, CaptureDiffTellsWhatChanged) {
   render({"--capture", "a.json", "--capture-frames", "2"}, "pinhole");
   render({"--capture", "b.json", "--capture-frames", "2"}, "two_pass_filter");
   const auto said = runWell({"capture-diff", "a.json", "b.json"});
@@ -145,7 +145,7 @@ TEST_F(Looks, CaptureDiffTellsWhatChanged) {
 
 // ---- Bad input
 
-TEST_F(Looks, BadCaptureOptions) {
+TEST_F(Inspection, RefusesBadCaptureOptions) {
   for (const std::string frames : {"0", "-1", "1001", "many", "1.5"}) {
     SCOPED_TRACE(frames);
     expectRefused({"--capture", "c.json", "--capture-frames", frames}, {"--capture-frames"});
@@ -157,7 +157,7 @@ TEST_F(Looks, BadCaptureOptions) {
   expectRefused({"--capture", "x.json", "--trace", "x.json"}, {"x.json", "same file"});
 }
 
-TEST_F(Looks, BadDumps) {
+TEST_F(Inspection, RefusesBadDumps) {
   for (const std::string dump :
        {"", "list=x", "color", "pinhole.opaque/pinhole.color", "=x.exr", "a=b/c.exr", "/color=x.exr", "pass/=x.exr"}) {
     SCOPED_TRACE(dump);
@@ -174,7 +174,7 @@ TEST_F(Looks, BadDumps) {
   expectRefused({"--dump-image", "pinhole.opaque/pinhole.color=out.exr"}, {"out.exr", "same file"});
 }
 
-TEST_F(Looks, DumpsThatMatchNothingSayWhatThereIs) {
+TEST_F(Inspection, DumpsThatMatchNothingSayWhatThereIs) {
   expectRefused(
       {"--dump-image", "pinhole.opaqe/pinhole.color=x.exr"},
       {"pinhole.opaqe/pinhole.color", "did you mean pinhole.opaque/pinhole.color?", "pinhole.opaque/pinhole.depth"});
@@ -184,7 +184,7 @@ TEST_F(Looks, DumpsThatMatchNothingSayWhatThereIs) {
       {"[0,1]", "no such mip and layer"});
 }
 
-TEST_F(Looks, BadCaptureFiles) {
+TEST_F(Inspection, RefusesBadCaptureFiles) {
   write("broken.json", "{\"format\": ");
   write("other.json", "{\"scene\": []}");
   write("empty.json", "");

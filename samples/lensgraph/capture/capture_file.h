@@ -12,6 +12,7 @@
 #include "rendergraph/capture_series.h"
 #include "samples/host/renderer.h"
 #include "samples/host/technique_choice.h"
+#include "samples/lensgraph/capture/measurement.h"
 
 namespace lensgraph::cli {
 
@@ -26,15 +27,6 @@ nlohmann::json toJson(const rendergraph::Spread& spread);
 /// FNV-1a over the bytes of the files in this order, as 16 hexadecimal digits. A glTF file's external buffers
 /// and images are not followed. Unreadable files count as empty.
 std::string hashOfFiles(const std::vector<std::filesystem::path>& files);
-
-/// Several frames of one picture.
-struct Measurement {
-  rendergraph::CaptureSeries series;  ///< The last execution of each frame.
-  std::vector<double> gpuMs, wallMs;  ///< By frame, over all its executions.
-  /// By frame, of isolated timing: device time of the same picture in one piece, with passes free to overlap.
-  std::vector<double> uninterruptedMs;
-  std::vector<rendergraph::Capture> executions;  ///< All of them, in order.
-};
 
 struct CaptureInput {
   std::string source;                        ///< The shot file, or the colour picture.

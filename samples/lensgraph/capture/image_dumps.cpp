@@ -1,15 +1,12 @@
-// Measuring frames and looking into them: see looks.h.
+// Reads the arguments of --dump-image, and matches them with the images that the graph has.
 #include "samples/lensgraph/capture/image_dumps.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
-#include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "engine/error.h"
 #include "engine/image/image_io.h"
-#include "rendergraph/trace.h"
-#include "samples/lensgraph/session.h"
 
 namespace lensgraph::cli {
 namespace {
@@ -31,12 +28,6 @@ bool readNumbers(std::string_view text, uint32_t& mip, uint32_t& layer) {
 
 std::string nameOf(const rendergraph::TapChoice& choice) {
   return choice.pass + "/" + choice.resource;
-}
-
-rendergraph::Timing timingOf(const LookArguments& arguments, const engine::DeviceDescription& device) {
-  // Timestamps of single passes are wrong on lavapipe once something is drawn.
-  const bool isolated = arguments.timing ? *arguments.timing == "isolated" : device.type == "cpu";
-  return isolated ? rendergraph::Timing::isolated : rendergraph::Timing::inlineTimestamps;
 }
 
 }  // namespace
@@ -63,73 +54,23 @@ ImageDump::ImageDump(const std::string& argument) {
   if (tap.pass.empty() || tap.resource.empty()) failDump("\"" + image + "\" names no image", kRemedy);
 }
 
-Looks::Looks(const LookArguments& arguments) : arguments_(arguments) {
-  lists_ = arguments.dumps == std::vector<std::string>{"list"};
-  if (!lists_) {
-    for (const auto& dump : arguments.dumps) dumps_.emplace_back(dump);
-  }
-  for (const auto& dump : dumps_) checkOutput(dump.file, "--dump-image", kDumpExtensions);
-  if (arguments.capture) checkOutput(*arguments.capture, "--capture");
-  if (arguments.trace) checkOutput(*arguments.trace, "--trace");
-  if (arguments.capture || arguments.trace) return;
-  const char* idle = arguments.frames ? "--capture-frames" : arguments.timing ? "--timing" : nullptr;
-  if (idle == nullptr) return;
-  throw engine::Error({.file = "command line",
-                       .field = idle,
-                       .reason = "nothing is measured",
-                       .remedy = "give --capture FILE.json or --trace FILE.json too"});
+ImageDumps::ImageDumps(const std::vector<std::string>& arguments)
+    : lists_(arguments == std::vector<std::string>{"list"}) {
+  if (lists_) return;
+  for (const std::string& argument : arguments) dumps_.emplace_back(argument);
+  for (const ImageDump& dump : dumps_) checkOutput(dump.file, "--dump-image", kDumpExtensions);
 }
 
-std::vector<OutputFile> Looks::outputs() const {
-  std::vector<OutputFile> files;
-  if (arguments_.capture) files.push_back({*arguments_.capture, "--capture"});
-  if (arguments_.trace) files.push_back({*arguments_.trace, "--trace"});
-  for (const auto& dump : dumps_) files.push_back({dump.file, "--dump-image"});
-  return files;
+void ImageDumps::appendOutputs(std::vector<OutputFile>& files) const {
+  for (const ImageDump& dump : dumps_) files.push_back({dump.file, "--dump-image"});
 }
 
-host::Rendering Looks::measure(host::RenderOptions options, const RenderOnce& renderOnce) {
-  const bool isolated = options.execute.timing == rendergraph::Timing::isolated;
-  host::RenderOptions inOnePiece = options;
-  inOnePiece.execute.timing = rendergraph::Timing::inlineTimestamps;
-  renderOnce(options);
-  measurement_.emplace();
-  if (arguments_.trace) {
-    options.observe = [this](const auto& capture) { measurement_->executions.push_back(capture); };
-  }
-  const int frames = arguments_.frames.value_or(LookArguments::kDefaultFrames);
-  host::Rendering rendering;
-  for (int frame = 0; frame < frames; ++frame) {
-    if (isolated) measurement_->uninterruptedMs.push_back(renderOnce(inOnePiece).gpuMs);
-    rendering = renderOnce(options);
-    measurement_->gpuMs.push_back(rendering.gpuMs);
-    measurement_->wallMs.push_back(rendering.wallMs);
-    if (!measurement_->series.add(rendering.capture)) {
-      throw engine::Error("the measured frames differ in their passes", engine::ErrorKind::failed);
-    }
-  }
-  return rendering;
+void ImageDumps::addTo(host::RenderOptions& options) {
+  options.tapped = &tapped_;
+  for (const ImageDump& dump : dumps_) options.taps.push_back(dump.tap);
 }
 
-host::Rendering Looks::render(const engine::DeviceDescription& device, host::RenderOptions options,
-                              const RenderOnce& renderOnce) {
-  const bool measures = arguments_.capture || arguments_.trace;
-  const bool taps = lists_ || !dumps_.empty();
-  host::Rendering rendering;
-  if (measures) {
-    options.execute.timing = timingOf(arguments_, device);
-    rendering = measure(options, renderOnce);
-    if (!taps) return rendering;
-  }
-  options.execute.timing = rendergraph::Timing::inlineTimestamps;
-  if (taps) options.tapped = &tapped_;
-  for (const auto& dump : dumps_) options.taps.push_back(dump.tap);
-  host::Rendering tapped = renderOnce(options);
-  requireMatches();
-  return measures ? std::move(rendering) : std::move(tapped);
-}
-
-void Looks::printList() const {
+void ImageDumps::printList() const {
   std::size_t width = 0;
   for (const auto& choice : tapped_.choices) width = std::max(width, nameOf(choice).size());
   for (const auto& choice : tapped_.choices) {
@@ -138,7 +79,7 @@ void Looks::printList() const {
   }
 }
 
-void Looks::requireMatches() const {
+void ImageDumps::requireMatches() const {
   for (std::size_t i = 0; i < dumps_.size(); ++i) {
     if (!tapped_.pictures[i].isEmpty()) continue;
     std::vector<std::string> names;
@@ -158,16 +99,7 @@ void Looks::requireMatches() const {
   }
 }
 
-void Looks::write(const engine::DeviceDescription& device, const CaptureInput& input,
-                  const host::TechniqueChoice& choice, const host::Rendering& rendering) const {
-  if (arguments_.capture) {
-    writeTextFile(*arguments_.capture, captureJson(device, input, choice, rendering, *measurement_).dump(2) + "\n");
-  }
-  if (arguments_.trace) {
-    std::ostringstream text;
-    rendergraph::writeTrace(text, measurement_->executions, "lensgraph " + choice.name + " on " + describe(device));
-    writeTextFile(*arguments_.trace, text.str());
-  }
+void ImageDumps::write() const {
   for (std::size_t i = 0; i < dumps_.size(); ++i) engine::writeImage(dumps_[i].file, tapped_.pictures[i]);
 }
 

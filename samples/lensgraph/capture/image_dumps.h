@@ -1,17 +1,13 @@
-// What --capture, --trace and --dump-image ask for: checked, measured, written. Shared by render and apply.
+// What --dump-image asks for: images inside the graph, written to files or listed.
 #pragma once
 
-#include <functional>
-#include <optional>
+#include <filesystem>
+#include <string>
 #include <vector>
 
-#include "engine/vulkan/device.h"
 #include "rendergraph/image_tap.h"
 #include "samples/host/renderer.h"
-#include "samples/host/technique_choice.h"
-#include "samples/lensgraph/capture/capture_file.h"
 #include "samples/lensgraph/output.h"
-#include "samples/lensgraph/subcommands.h"
 
 namespace lensgraph::cli {
 
@@ -24,36 +20,27 @@ struct ImageDump {
   std::filesystem::path file;
 };
 
-class Looks {
+class ImageDumps {
  public:
-  /// Checks everything that can be checked without a device. Throws engine::Error (bad input).
-  explicit Looks(const LookArguments& arguments);
+  /// `arguments`: one for each --dump-image, or "list" alone. Throws engine::Error (bad input).
+  explicit ImageDumps(const std::vector<std::string>& arguments);
 
-  /// The files that write() will write.
-  std::vector<OutputFile> outputs() const;
-  /// Only the list of images is wanted, which printList() prints after render().
+  bool wanted() const { return lists_ || !dumps_.empty(); }
+  /// Only the list of images is wanted, which printList() prints after a frame.
   bool listsOnly() const { return lists_; }
-  void printList() const;
+  /// Appends the files that write() will write.
+  void appendOutputs(std::vector<OutputFile>& files) const;
 
-  using RenderOnce = std::function<host::Rendering(const host::RenderOptions& options)>;
-  /// The picture. With something to measure: a warm-up frame (shaders are compiled in it), then the measured ones, each
-  /// isolated one beside the same frame in one piece, and one more when images are dumped, whose copies would disturb
-  /// the measurement. Throws what `renderOnce` throws, and
-  /// engine::Error (bad input) when a dump matches nothing: nothing is written then.
-  host::Rendering render(const engine::DeviceDescription& device, host::RenderOptions options,
-                         const RenderOnce& renderOnce);
-  /// Writes what was asked for.
-  void write(const engine::DeviceDescription& device, const CaptureInput& input, const host::TechniqueChoice& choice,
-             const host::Rendering& rendering) const;
+  /// Makes the next rendering with these options copy the images; this object outlives the rendering.
+  void addTo(host::RenderOptions& options);
+  /// After that rendering. Throws engine::Error (bad input) that lists what there is when a dump matches no image.
+  void requireMatches() const;
+  void printList() const;
+  void write() const;
 
  private:
-  host::Rendering measure(host::RenderOptions options, const RenderOnce& renderOnce);
-  void requireMatches() const;
-
-  const LookArguments& arguments_;
   bool lists_ = false;
   std::vector<ImageDump> dumps_;
-  std::optional<Measurement> measurement_;
   host::Tapped tapped_;
 };
 

@@ -1,7 +1,7 @@
 // lensgraph apply: a technique on a picture and its depth, wherever they come from.
 #include "engine/error.h"
 #include "engine/image/image_io.h"
-#include "samples/lensgraph/capture/image_dumps.h"
+#include "samples/lensgraph/capture/inspection.h"
 #include "samples/lensgraph/output.h"
 #include "samples/lensgraph/progress.h"
 #include "samples/lensgraph/session.h"
@@ -62,9 +62,9 @@ int runApply(const ApplyArguments& arguments, const GlobalArguments& global) {
     failUsage("--fovy", "must be above 0 and below 180 degrees", "");
   }
   const passes::Lens lens = lensOf(arguments);
-  Looks looks(arguments.look);
+  Inspection inspection(arguments.inspection);
   if (!arguments.output.empty()) checkOutput(arguments.output, "--output", kPictureExtensions);
-  std::vector<OutputFile> files = looks.outputs();
+  std::vector<OutputFile> files = inspection.outputs();
   files.push_back({arguments.output, "--output"});
   requireDistinct(files);
   if (arguments.exposureEv && !arguments.output.empty()) warnUnusedExposure(arguments.output);
@@ -89,17 +89,17 @@ int runApply(const ApplyArguments& arguments, const GlobalArguments& global) {
                               .wantDepth = false,
                               .progress = [&](uint32_t done, uint32_t total) { bar.update(done, total); }};
   const auto& device = session.device().description();
-  const auto rendering = looks.render(device, options, [&](const host::RenderOptions& now) {
+  const auto rendering = inspection.render(device, options, [&](const host::RenderOptions& now) {
     return renderer.apply(color, depth, arguments.fovyDeg, lens, now);
   });
   bar.wipe();
-  if (looks.listsOnly()) {
-    looks.printList();
+  if (inspection.imageDumps().listsOnly()) {
+    inspection.imageDumps().printList();
     return session.finish();
   }
 
   engine::writeImage(arguments.output, rendering.color, {.exposureEv = arguments.exposureEv.value_or(0.0)});
-  looks.write(device, {arguments.color.string(), {arguments.color, arguments.depth}, &lens}, choice, rendering);
+  inspection.write(device, {arguments.color.string(), {arguments.color, arguments.depth}, &lens}, choice, rendering);
   printSummary(device, choice, rendering);
   return session.finish();
 }

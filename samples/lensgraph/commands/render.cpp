@@ -1,7 +1,7 @@
 // lensgraph render: a shot file into a picture.
 #include "engine/image/image_io.h"
 #include "samples/lensgraph/capture/capture_file.h"
-#include "samples/lensgraph/capture/image_dumps.h"
+#include "samples/lensgraph/capture/inspection.h"
 #include "samples/lensgraph/output.h"
 #include "samples/lensgraph/progress.h"
 #include "samples/lensgraph/session.h"
@@ -10,10 +10,10 @@
 namespace lensgraph::cli {
 namespace {
 
-void checkOutputs(const RenderArguments& arguments, const Looks& looks) {
+void checkOutputs(const RenderArguments& arguments, const Inspection& inspection) {
   if (!arguments.output.empty()) checkOutput(arguments.output, "--output", kPictureExtensions);
   if (arguments.depthOut) checkOutput(*arguments.depthOut, "--depth-out", kDepthExtensions);
-  std::vector<OutputFile> files = looks.outputs();
+  std::vector<OutputFile> files = inspection.outputs();
   files.push_back({arguments.output, "--output"});
   if (arguments.depthOut) files.push_back({*arguments.depthOut, "--depth-out"});
   requireDistinct(files);
@@ -21,12 +21,13 @@ void checkOutputs(const RenderArguments& arguments, const Looks& looks) {
 }
 
 void writeOutputs(const RenderArguments& arguments, const host::Shot& shot, const host::TechniqueChoice& choice,
-                  const engine::DeviceDescription& device, const host::Rendering& rendering, const Looks& looks) {
+                  const engine::DeviceDescription& device, const host::Rendering& rendering,
+                  const Inspection& inspection) {
   engine::writeImage(arguments.output, rendering.color, {.exposureEv = arguments.exposureEv.value_or(0.0)});
   if (arguments.depthOut) engine::writeImage(*arguments.depthOut, rendering.depth);
   CaptureInput input{arguments.shot.string(), {arguments.shot}, &shot.lens};
   for (const auto& part : shot.scene) input.files.push_back(part.path);
-  looks.write(device, input, choice, rendering);
+  inspection.write(device, input, choice, rendering);
 }
 
 }  // namespace
@@ -38,8 +39,8 @@ int runRender(const RenderArguments& arguments, const GlobalArguments& global) {
     shot.height = arguments.size->height;
   }
   const auto choice = chooseTechnique({shot.technique, shot.parameters}, arguments.technique);
-  Looks looks(arguments.look);
-  checkOutputs(arguments, looks);
+  Inspection inspection(arguments.inspection);
+  checkOutputs(arguments, inspection);
 
   Session session(global);
   std::vector<std::string> warnings;
@@ -54,14 +55,14 @@ int runRender(const RenderArguments& arguments, const GlobalArguments& global) {
                               .progress = [&](uint32_t done, uint32_t total) { bar.update(done, total); }};
   const auto& device = session.device().description();
   const host::Rendering rendering =
-      looks.render(device, options, [&](const host::RenderOptions& now) { return renderer.render(shot, now); });
+      inspection.render(device, options, [&](const host::RenderOptions& now) { return renderer.render(shot, now); });
   bar.wipe();
-  if (looks.listsOnly()) {
-    looks.printList();
+  if (inspection.imageDumps().listsOnly()) {
+    inspection.imageDumps().printList();
     return session.finish();
   }
 
-  writeOutputs(arguments, shot, choice, device, rendering, looks);
+  writeOutputs(arguments, shot, choice, device, rendering, inspection);
   printSummary(device, choice, rendering);
   return session.finish();
 }

@@ -1,4 +1,4 @@
-// Looking at frames on a device: times that add up, and images inside the graph.
+// Captures and image taps on a device: times that add up, and images inside the graph.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace lensgraph {
 
 namespace {
 
-class LookOnDevice : public support::GpuTest {};
+class InspectionOnDevice : public support::GpuTest {};
 
 host::RenderOptions optionsOf(const std::string& technique) {
   host::RenderOptions options;
@@ -21,7 +21,7 @@ host::RenderOptions optionsOf(const std::string& technique) {
 // The frame's time is read from the clock around all submissions, less the recording; the passes' times are read around
 // each. What the sum lacks is the two submissions that belong to no pass. Another process may take the processor
 // between two passes of one frame; a mistake in the accounting would show in all of them.
-TEST_F(LookOnDevice, IsolatedPassesAddUpToTheFrame) {
+TEST_F(InspectionOnDevice, IsolatedPassesAddUpToTheFrame) {
   std::vector<std::string> warnings;
   const auto shot = host::readShot(LENSGRAPH_SOURCE_DIR "/samples/scenes/street_lights.json");
   host::Renderer renderer(support::device(), shot, warnings);
@@ -43,7 +43,7 @@ TEST_F(LookOnDevice, IsolatedPassesAddUpToTheFrame) {
   }
 }
 
-TEST_F(LookOnDevice, TappedImagesAreThePictureAndItsDepth) {
+TEST_F(InspectionOnDevice, TappedImagesAreThePictureAndItsDepth) {
   host::Renderer renderer(support::device(), support::layeredScene(), std::nullopt);
   const auto shot = support::smallShot(37, 23);
   auto options = optionsOf("pinhole");
@@ -54,8 +54,8 @@ TEST_F(LookOnDevice, TappedImagesAreThePictureAndItsDepth) {
   options.taps = {{.pass = "pinhole.opaque", .resource = "pinhole.color"},
                   {.pass = "pinhole.opaque", .resource = "pinhole.depth"},
                   {.pass = "pinhole.opaque", .resource = "nothing"}};
-  const auto looked = renderer.render(shot, options);
-  EXPECT_TRUE(looked.color.samples == plain.color.samples) << "looking changes nothing";
+  const auto tappedToo = renderer.render(shot, options);
+  EXPECT_TRUE(tappedToo.color.samples == plain.color.samples) << "taps change nothing";
   ASSERT_EQ(tapped.pictures.size(), 3u);
   EXPECT_TRUE(tapped.pictures[0].samples == plain.color.samples);
   ASSERT_EQ(tapped.pictures[1].pixelCount(), plain.depth.pixelCount());
@@ -68,7 +68,7 @@ TEST_F(LookOnDevice, TappedImagesAreThePictureAndItsDepth) {
 }
 
 // Mid-frame content: the running mean after the first of two views is that view, whatever comes later.
-TEST_F(LookOnDevice, ATapSeesWhatLaterPassesReplace) {
+TEST_F(InspectionOnDevice, ATapSeesWhatLaterPassesReplace) {
   host::Renderer renderer(support::device(), support::layeredScene(), std::nullopt);
   const auto shot = support::smallShot(37, 23);
   host::Tapped tapped;
