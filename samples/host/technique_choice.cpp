@@ -39,16 +39,23 @@ const passes::ParameterInfo* findParameter(const passes::Technique& technique, s
   return found == technique.parameters.end() ? nullptr : &*found;
 }
 
+struct Unknown {
+  std::string reason, remedy;
+};
+
+Unknown unknownTechnique(std::string_view name) {
+  const auto nearest = passes::nearestTechniqueName(name);
+  return {
+      .reason = "unknown technique \"" + std::string(name) + "\"",
+      .remedy = nearest.empty() ? "known are " + allTechniqueNames() : "did you mean " + std::string(nearest) + "?"};
+}
+
 }  // namespace
 
 const passes::Technique& requireTechnique(std::string_view name, const std::string& file, const std::string& field) {
   if (const auto* technique = passes::findTechnique(name)) return *technique;
-  const auto nearest = passes::nearestTechniqueName(name);
-  throw engine::Error(
-      {.file = file,
-       .field = field,
-       .reason = "unknown technique \"" + std::string(name) + "\"",
-       .remedy = nearest.empty() ? "known are " + allTechniqueNames() : "did you mean " + std::string(nearest) + "?"});
+  const Unknown unknown = unknownTechnique(name);
+  throw engine::Error({.file = file, .field = field, .reason = unknown.reason, .remedy = unknown.remedy});
 }
 
 TechniqueChoice parseTechnique(const JsonNode& node, std::string_view defaultName) {
@@ -64,9 +71,8 @@ TechniqueChoice parseTechnique(const JsonNode& node, std::string_view defaultNam
   if (choice.name.empty()) node.failAt("name", "is missing", "name a technique: " + allTechniqueNames());
   const auto* technique = passes::findTechnique(choice.name);
   if (technique == nullptr) {
-    const auto nearest = passes::nearestTechniqueName(choice.name);
-    node.failAt("name", "unknown technique \"" + choice.name + "\"",
-                nearest.empty() ? "known are " + allTechniqueNames() : "did you mean " + std::string(nearest) + "?");
+    const Unknown unknown = unknownTechnique(choice.name);
+    node.failAt("name", unknown.reason, unknown.remedy);
   }
   const auto problems = passes::check(choice.parameters, technique->parameters);
   if (!problems.empty()) node.failAt(problems.front().parameter, problems.front().reason, problems.front().remedy);

@@ -24,7 +24,7 @@ host::Renderer lightAt(double depth, double sidePx, double pixelsPerTangent) {
 
 class CircleOfConfusion : public support::GpuTest {};
 
-TEST_F(CircleOfConfusion, OfAPointLightIsTheThinLensFormula) {
+TEST_F(CircleOfConfusion, APointLightBlursByTheThinLensFormula) {
   auto shot = support::smallShot(kSide, kSide);
   shot.lens.focusDistance = 2.0;
   shot.lens.apertureRadius = 0.2;

@@ -52,7 +52,7 @@ TEST_F(Devices, AreChosenByIndexAndByPartOfTheNameInAnyCase) {
   }
 }
 
-TEST_F(Devices, ThatAreUnknownAreRefusedWithTheListOfThoseThereAre) {
+TEST_F(Devices, AnUnknownDeviceIsRefusedWithTheListOfDevices) {
   const auto list = engine::listDevices();
   for (const std::string& select : {std::string("no such device"), std::to_string(list.size()), std::string("-1")}) {
     try {

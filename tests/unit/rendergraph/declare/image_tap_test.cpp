@@ -68,7 +68,7 @@ TEST_F(Taps, KeepAPassThatWouldBeCulled) {
   EXPECT_THAT(executed(), testing::UnorderedElementsAre("first", "third", "tap third/other", "second"));
 }
 
-TEST_F(Taps, OfTheLastPassAreAddedByAnExport) {
+TEST_F(Taps, AnExportAddsTheTapsOfTheLastPass) {
   taps_.add({.pass = "last", .resource = "image"});
   Image image = write("last", graph_.createImage("image", kDesc));
   graph_.exportImage(image, kSampled);
@@ -76,7 +76,7 @@ TEST_F(Taps, OfTheLastPassAreAddedByAnExport) {
   EXPECT_THAT(executed(), ElementsAre("last", "tap last/image"));
 }
 
-TEST_F(Taps, OfTheLastPassAreAddedByFinishing) {
+TEST_F(Taps, FinishingAddsTheTapsOfTheLastPass) {
   taps_.add({.pass = "last", .resource = "image"});
   write("last", graph_.createImage("image", kDesc));
   graph_.finish();
@@ -96,7 +96,7 @@ TEST_F(Taps, StayOverAReset) {
   EXPECT_FALSE(taps_.images().at(0).buffer) << "of a declaration that has not been made yet";
 }
 
-TEST_F(Taps, ThatMatchNothingAddNothing) {
+TEST_F(Taps, ATapThatMatchesNothingAddsNothing) {
   taps_.add({.pass = "first", .resource = "other"});
   taps_.add({.pass = "fourth", .resource = "image"});
   taps_.add({.pass = "first", .resource = "image", .mip = 3});
@@ -107,7 +107,7 @@ TEST_F(Taps, ThatMatchNothingAddNothing) {
   for (const TappedImage& image : taps_.images()) EXPECT_FALSE(image.buffer);
 }
 
-TEST_F(Taps, OfOneMipAndLayer) {
+TEST_F(Taps, ATapCopiesOneMipAndLayer) {
   taps_.add({.pass = "mip 1", .resource = "image", .mip = 1, .layer = 1});
   Image image = graph_.createImage("image", kDesc);
   image = write("mip 0", image, mip(0));
@@ -118,7 +118,7 @@ TEST_F(Taps, OfOneMipAndLayer) {
   EXPECT_EQ(executor_.mapped(taps_.images().at(0).buffer).size(), 32u * 16 * 8);
 }
 
-TEST_F(Taps, OfDepth) {
+TEST_F(Taps, ATapOfDepthCopiesTheDepthAspect) {
   taps_.add({.pass = "draw", .resource = "depth"});
   Image depth = graph_.createImage("depth", {.format = VK_FORMAT_D32_SFLOAT_S8_UINT, .width = 8, .height = 4});
   depth = graph_.addPass("draw", PassKind::raster).depth(depth);
@@ -127,7 +127,7 @@ TEST_F(Taps, OfDepth) {
   EXPECT_EQ(taps_.images().at(0).aspect, VkImageAspectFlags{VK_IMAGE_ASPECT_DEPTH_BIT});
 }
 
-TEST_F(Taps, TwoOfOnePass) {
+TEST_F(Taps, TwoTapsOfOnePassAreBothCopied) {
   taps_.add({.pass = "first", .resource = "image"});
   taps_.add({.pass = "first", .resource = "image", .mip = 1});
   declare();

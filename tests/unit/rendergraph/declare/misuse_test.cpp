@@ -216,7 +216,7 @@ TEST(Misuse, MissingUsageOfAnImport) {
   });
 }
 
-TEST(Misuse, UsageThatCannotBe) {
+TEST(Misuse, AUsageThatTheResourceCannotHaveIsReported) {
   expectProblem(Misuse::missingUsage, "pass", "image", "choose a usage", [](Graph& graph) {
     Image image = graph.createImage("image", kColor);
     Pass pass = graph.addPass("pass", PassKind::compute);

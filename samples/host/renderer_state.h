@@ -1,0 +1,58 @@
+// The inside of a Renderer, shared by the files that implement it.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "engine/draw/scene_renderer.h"
+#include "engine/graph/graph_backend.h"
+#include "engine/vulkan/device.h"
+#include "passes/technique.h"
+#include "rendergraph/executor.h"
+#include "samples/host/renderer.h"
+
+namespace lensgraph::host {
+
+inline constexpr float kNothingHit = 1e10f;  ///< m; the depth of the background in pictures.
+
+/// The technique that the options name, with its parameters checked. Throws engine::Error (bad input).
+const passes::Technique& techniqueOf(const RenderOptions& options);
+
+/// What of a frame comes back to the host; default-made handles are not asked for.
+struct ReadBacks {
+  rendergraph::Buffer color, depth, standardError;
+  std::vector<rendergraph::Buffer> statistics;
+};
+
+/// What a frame's declaration gives the host: the technique's outputs, and the statistics of all its parts.
+struct FrameOutputs {
+  passes::DofOutputs technique;
+  std::vector<rendergraph::Buffer> statistics;
+};
+
+struct Renderer::State {
+  explicit State(engine::Device& usedDevice) : device(usedDevice), backend(usedDevice), executor(backend) {}
+
+  /// Declares one frame.
+  using DeclareFrame = std::function<FrameOutputs(rendergraph::Graph&, uint32_t frame)>;
+
+  passes::DofInputs sceneInputs(const Shot& shot);
+  passes::SceneShading importShading(rendergraph::Graph& graph) const;
+  Rendering run(const passes::Technique& technique, const passes::DofInputs& inputs, const RenderOptions& options,
+                const DeclareFrame& declareFrame);
+  ReadBacks declareReadBacks(rendergraph::Graph& graph, const FrameOutputs& frame, bool isLast, bool wantDepth);
+  FrameOutputs declareTechnique(rendergraph::Graph& graph, passes::DofInputs inputs, const passes::Technique& technique,
+                                const RenderOptions& options);
+
+  engine::Device& device;
+  engine::GraphBackend backend;
+  rendergraph::Executor executor;
+  std::optional<engine::Scene> scene;
+  std::unique_ptr<engine::SceneRenderer> renderer;
+  passes::SceneDraw sceneDraw;
+  std::vector<passes::VergenceInterval> occupied;  ///< What sceneDraw refers to.
+};
+
+}  // namespace lensgraph::host
