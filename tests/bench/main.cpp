@@ -1,7 +1,8 @@
 // rendergraph_bench                         prints the times (all --benchmark_… options of Google Benchmark work)
 // rendergraph_bench --json FILE             measures everything and writes it
+// rendergraph_bench --techniques FILE       measures the techniques again in such a file, and keeps the rest of it
 // rendergraph_bench --table FILE            prints such a file as Markdown
-// rendergraph_bench --check README FILE     status 1 unless the README contains that Markdown
+// rendergraph_bench --check TEXT FILE       status 1 unless the text, docs/rendergraph_measured.md, contains that Markdown
 #include <benchmark/benchmark.h>
 
 #include <cstdio>
@@ -51,9 +52,15 @@ ordered_json measureAll(const std::string& command) {
           {"techniques", bench::techniques()}};
 }
 
-int check(const std::filesystem::path& readme, const std::filesystem::path& results) {
+void measureTechniquesAgain(const std::filesystem::path& results) {
+  ordered_json all = ordered_json::parse(readFile(results));
+  all["techniques"] = bench::techniques();
+  writeFile(results, all.dump(1) + "\n");
+}
+
+int check(const std::filesystem::path& tables, const std::filesystem::path& results) {
   const std::string expected = bench::markdown(ordered_json::parse(readFile(results)));
-  const std::string text = readFile(readme);
+  const std::string text = readFile(tables);
   int status = 0;
   for (std::size_t begin = 0; begin < expected.size();) {
     const std::size_t end = expected.find('\n', begin);
@@ -61,7 +68,7 @@ int check(const std::filesystem::path& readme, const std::filesystem::path& resu
     begin = end + 1;
     if (text.find(row) != std::string::npos) continue;
     std::fprintf(stderr, "rendergraph_bench: %s lacks the row: %s (print the tables with --table %s)\n",
-                 readme.string().c_str(), row.c_str(), results.string().c_str());
+                 tables.string().c_str(), row.c_str(), results.string().c_str());
     status = 1;
   }
   return status;
@@ -74,6 +81,10 @@ int run(const std::vector<std::string>& arguments, const std::string& command) {
     return 0;
   }
   if (arguments.size() == 3 && arguments[0] == "--check") return check(arguments[1], arguments[2]);
+  if (arguments.size() == 2 && arguments[0] == "--techniques") {
+    measureTechniquesAgain(arguments[1]);
+    return 0;
+  }
   bench::registerSpeed();
   if (arguments.size() == 2 && arguments[0] == "--json") {
     writeFile(arguments[1], measureAll(command).dump(1) + "\n");
