@@ -8,6 +8,7 @@
 #include "engine/error.h"
 #include "engine/vulkan/command_buffers.h"
 #include "passes/lens/physical_lens.h"
+#include "samples/host/renderer.h"
 #include "samples/host/renderer_state.h"
 #include "samples/host/shot_scene.h"
 #include "samples/host/texels.h"

@@ -13,7 +13,7 @@ using passes::DofInputs;
 using rendergraph::Graph;
 using rendergraph::PassContext;
 
-passes::SceneShading Renderer::State::importShading(Graph& graph) const {
+passes::SceneShading RendererState::importShading(Graph& graph) const {
   const auto buffer = [&](const char* name, const engine::GpuBuffer& one, VkBufferUsageFlags usage) {
     return graph.importBuffer(name, {.size = std::max<VkDeviceSize>(one.size, 16)},
                               {.buffer = one.buffer.get(), .usage = usage, .before = {}, .after = {}});
@@ -30,7 +30,7 @@ passes::SceneShading Renderer::State::importShading(Graph& graph) const {
           .constants = buffer("scene_constants", renderer->constants(), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT)};
 }
 
-DofInputs Renderer::State::sceneInputs(const Shot& shot) {
+DofInputs RendererState::sceneInputs(const Shot& shot) {
   if (!renderer) throw engine::Error("this renderer was made without a scene");
   const engine::Camera camera = shotCamera(shot, *scene);
   const auto width = static_cast<uint32_t>(shot.width), height = static_cast<uint32_t>(shot.height);

@@ -87,16 +87,16 @@ Renderer::Renderer(engine::Device& device, const Shot& shot, std::vector<std::st
     : Renderer(device, loadShotScene(shot, warnings), loadEnvironment(shot)) {}
 
 Renderer::Renderer(engine::Device& device, engine::Scene scene, const std::optional<engine::Environment>& environment)
-    : state_(std::make_unique<State>(device)) {
+    : state_(std::make_unique<RendererState>(device)) {
   state_->scene = std::move(scene);
   state_->renderer = std::make_unique<engine::SceneRenderer>(state_->backend, *state_->scene, environment);
 }
 
-Renderer::Renderer(engine::Device& device) : state_(std::make_unique<State>(device)) {}
+Renderer::Renderer(engine::Device& device) : state_(std::make_unique<RendererState>(device)) {}
 Renderer::~Renderer() = default;
 
-FrameOutputs Renderer::State::declareTechnique(Graph& graph, DofInputs inputs, const passes::Technique& technique,
-                                               const RenderOptions& options) {
+FrameOutputs RendererState::declareTechnique(Graph& graph, DofInputs inputs, const passes::Technique& technique,
+                                             const RenderOptions& options) {
   // Without a scene (apply) the pictures are already in the inputs.
   DofOutputs view;
   const bool isImage = technique.input == passes::TechniqueInput::image;
@@ -118,7 +118,7 @@ FrameOutputs Renderer::State::declareTechnique(Graph& graph, DofInputs inputs, c
   return out;
 }
 
-ReadBacks Renderer::State::declareReadBacks(Graph& graph, const FrameOutputs& frame, bool isLast, bool wantDepth) {
+ReadBacks RendererState::declareReadBacks(Graph& graph, const FrameOutputs& frame, bool isLast, bool wantDepth) {
   ReadBacks back;
   for (const Buffer& buffer : frame.statistics) back.statistics.push_back(readBack(graph, buffer, "statistics"));
   if (!isLast) return back;
@@ -129,8 +129,8 @@ ReadBacks Renderer::State::declareReadBacks(Graph& graph, const FrameOutputs& fr
   return back;
 }
 
-Rendering Renderer::State::run(const passes::Technique& technique, const DofInputs& inputs,
-                               const RenderOptions& options, const DeclareFrame& declareFrame) {
+Rendering RendererState::run(const passes::Technique& technique, const DofInputs& inputs, const RenderOptions& options,
+                             const DeclareFrame& declareFrame) {
   Rendering rendering;
   const uint32_t frames = technique.frameCount(options.parameters, inputs);
   Graph graph;

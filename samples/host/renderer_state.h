@@ -11,7 +11,8 @@
 #include "engine/vulkan/device.h"
 #include "passes/technique.h"
 #include "rendergraph/executor.h"
-#include "samples/host/renderer.h"
+#include "samples/host/rendering.h"
+#include "samples/host/shot.h"
 
 namespace lensgraph::host {
 
@@ -32,8 +33,8 @@ struct FrameOutputs {
   std::vector<rendergraph::Buffer> statistics;
 };
 
-struct Renderer::State {
-  explicit State(engine::Device& usedDevice) : device(usedDevice), backend(usedDevice), executor(backend) {}
+struct RendererState {
+  explicit RendererState(engine::Device& usedDevice) : device(usedDevice), backend(usedDevice), executor(backend) {}
 
   /// Declares one frame.
   using DeclareFrame = std::function<FrameOutputs(rendergraph::Graph&, uint32_t frame)>;

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "engine/graph/graph_backend.h"
+#include "passes/registry/registry.h"
 #include "rendergraph/executor.h"
 #include "tests/support/gpu/gpu_test.h"
 #include "tests/support/gpu/test_scenes.h"

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "passes/registry/registry.h"
 #include "tests/support/gpu/gpu_test.h"
 #include "tests/support/gpu/test_scenes.h"
 

@@ -1,0 +1,60 @@
+// What a rendering is asked for, and what it returns.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/image/image.h"
+#include "passes/parameters.h"
+#include "rendergraph/capture.h"
+#include "rendergraph/execute_options.h"
+#include "rendergraph/image_tap.h"
+#include "shaders/shared/statistics.h"
+
+namespace lensgraph::host {
+
+struct Rendering {
+  engine::FloatImage color;  ///< Linear RGBA.
+  engine::FloatImage depth;  ///< View depth in metres, one channel, 1e10 where nothing is hit; empty for apply.
+  shared::FrameStatistics statistics{};
+  rendergraph::Capture capture;  ///< Of the last execution.
+  double gpuMs = 0.0;            ///< Device time of all executions.
+  double wallMs = 0.0;           ///< Host time of all executions. The first render() also compiles shaders.
+  uint32_t executions = 0;       ///< Of the graph; progressive techniques take several for one picture.
+  double estimatedError = -1.0;  ///< RMS standard error of a progressive technique; negative when it has none.
+};
+
+/// What RenderOptions::taps asked for.
+struct Tapped {
+  std::vector<engine::FloatImage> pictures;     ///< One for each tap; empty where nothing matched.
+  std::vector<rendergraph::TapChoice> choices;  ///< Every image that could have been tapped.
+};
+
+/// Done executions and their number; called between executions.
+using Progress = std::function<void(uint32_t done, uint32_t total)>;
+
+/// Room in per-pixel lists, in fragments a pixel; see passes::SceneDraw.
+struct ListRoom {
+  float fragmentNodes = 1.0f, listFragments = 4.0f;
+};
+
+struct RenderOptions {
+  std::string technique;
+  passes::ParameterSet parameters;
+  rendergraph::ExecuteOptions execute;
+  bool wantDepth = false;
+  Progress progress;
+  /// Images of passes to be copied into `tapped`, which may be null without taps and lives as long as the rendering.
+  /// A progressive technique's come from the last execution that has the pass. Formats that are no picture throw.
+  std::vector<rendergraph::ImageTap> taps;
+  Tapped* tapped = nullptr;
+  /// Lists get no more room than this, and the picture is what fits. Without it, room grows and the frame is rendered
+  /// again until everything fits.
+  std::optional<ListRoom> fixedRoom;
+  /// Called with the capture of each execution, if set.
+  std::function<void(const rendergraph::Capture&)> observe;
+};
+
+}  // namespace lensgraph::host
