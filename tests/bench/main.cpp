@@ -52,8 +52,9 @@ ordered_json measureAll(const std::string& command) {
           {"techniques", bench::techniques()}};
 }
 
-void measureTechniquesAgain(const std::filesystem::path& results) {
+void measureTechniquesAgain(const std::filesystem::path& results, const std::string& command) {
   ordered_json all = ordered_json::parse(readFile(results));
+  all["techniquesCommand"] = command;
   all["techniques"] = bench::techniques();
   writeFile(results, all.dump(1) + "\n");
 }
@@ -82,7 +83,7 @@ int run(const std::vector<std::string>& arguments, const std::string& command) {
   }
   if (arguments.size() == 3 && arguments[0] == "--check") return check(arguments[1], arguments[2]);
   if (arguments.size() == 2 && arguments[0] == "--techniques") {
-    measureTechniquesAgain(arguments[1]);
+    measureTechniquesAgain(arguments[1], command);
     return 0;
   }
   bench::registerSpeed();
