@@ -158,7 +158,7 @@ struct Declaration {
   std::vector<GraphError::Problem> problems;
   Arena arena;
   /// Whether every access was declared before those of later passes, so that the order of the passes is one in which
-  /// they can run. Accesses of several passes may be declared in turns; then compile() looks for an order.
+  /// they can run. Accesses of different passes may be declared interleaved; then compile() looks for an order.
   bool inOrder = true;
   uint32_t latestPass = 0;           ///< Of the latest access.
   bool recordingsToDestroy = false;  ///< Some recording has a destructor.

@@ -55,7 +55,7 @@ void makeRoom(const shared::FrameStatistics& frame, double pixels, passes::Scene
   if (frame.listFragmentsDropped > 0) scene.listFragmentsPerPixel = perPixel(frame.listFragments);
 }
 
-/// Takes home what the taps have copied in the latest execution.
+/// Converts the copies that the taps made in the latest execution to pictures.
 void keepTapped(const Graph& graph, const rendergraph::Executor& executor, const rendergraph::ImageTaps& taps,
                 Tapped& tapped) {
   tapped.pictures.resize(taps.images().size());

@@ -9,7 +9,7 @@
 
 namespace lensgraph::rendergraph {
 
-/// Somebody whose last uses a resource's first use must wait for.
+/// A resource that occupied the same memory earlier; its last uses must finish first.
 struct MemoryPredecessor {
   uint32_t resource = 0;
   bool frameBefore = false;  ///< It had the memory at the end of the frame before; it may be the resource itself.

@@ -94,8 +94,8 @@ class GreedyMemory {
     auto operator<=>(const Entry&) const = default;
   };
 
-  // What a pass costs only falls, when a resource of it comes alive or it becomes the last user. Then it is queued
-  // once more; the dearer entry comes up when the pass is done, and is dropped.
+  // What a pass costs only falls, when a resource of it comes alive or it becomes the last user. A pass is
+  // pushed again whenever its cost falls; stale entries are skipped when popped (done_).
   void push(uint32_t pass) {
     const int64_t added = bytes_.added(pass);
     candidates_.push({added - bytes_.freed(pass), added, pass});

@@ -1,4 +1,4 @@
-// Walks every cell through time and separates what must not touch.
+// For every cell, visits its uses in execution order and adds the barriers between conflicting ones.
 //
 // The uses of a cell fall into epochs: one write, or a run of reads in one layout. Between two epochs stands exactly
 // one barrier, placed before the first pass of the later epoch, and it serves all of that epoch: a run of reads by

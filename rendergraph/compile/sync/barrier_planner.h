@@ -1,5 +1,5 @@
-// The walk over every cell that finds its barriers; barriers.cpp for cells on one queue, queue_barriers.cpp for those
-// that several queues use.
+// Visits every cell and finds its barriers: barrier_planner.cpp for cells that one queue uses, barrier_planner_queues.cpp
+// for cells that several queues use.
 #pragma once
 
 #include <cstdint>

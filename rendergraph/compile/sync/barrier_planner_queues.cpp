@@ -125,7 +125,7 @@ uint32_t BarrierPlanner::submissionAfter(const Crossing& crossing) const {
 void BarrierPlanner::transferOwnership(Crossing& crossing, const Epoch& epoch) {
   const uint32_t queue = epoch.uses.front().queue;
   AccessPoint from = crossing.queues[crossing.lastQueue].last;
-  // Nothing to wait for means that the barrier at the end of the frame before was seen to it.
+  // An empty scope means the previous frame's closing barrier already covers this resource; chain to that barrier.
   if (from.stages == 0 && in_.options.overlappingFrames) from.stages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
   ImageBarrier release{.from = from,
                        .to = {.pass = epoch.uses.front().pass},

@@ -1,4 +1,4 @@
-// Takes from barriers and semaphore waits what other waits, or those of the host, have seen to. Pure.
+// Removes from barriers and semaphore waits every stage and access bit that another wait already guarantees. Pure.
 //
 // A barrier on one queue is needed in every bit, as long as nothing else orders that queue. A semaphore to another
 // queue and back does, for everything that was on the queue before; so does the host when it waits in the middle of a
@@ -34,7 +34,7 @@ class BarrierTrimming {
   bool again();
   /// After the last cell: of all barriers, those at the end lose the stages that only the next frame might have needed.
   void trimEnds(std::vector<PendingBarrier>& found) const;
-  /// After the last cell: leaves the waits that what is left of the barriers relies on.
+  /// After the last cell: keeps only the semaphore waits that the remaining barriers rely on.
   void trimWaits(Plan& plan) { needs_.minimize(order_, plan); }
 
  private:

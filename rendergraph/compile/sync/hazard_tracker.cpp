@@ -1,4 +1,4 @@
-// Whether a cell's next epoch respects the records of what was before; hazard_records.cpp makes them.
+// Whether a cell's next epoch respects the records of what was before; hazard_tracker_records.cpp makes them.
 #include "rendergraph/compile/sync/hazard_tracker.h"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ HazardTracker::HazardTracker(const BarrierInputs& inputs, const Plan& plan, cons
       order_(order),
       left_(plan_.placements.empty() ? 0 : inputs.declaration.resources.size()) {
   leftKnown_.assign(left_.size(), 0);
-  ends_.resize(inputs.declaration.resources.size());
+  endStages_.resize(inputs.declaration.resources.size());
 }
 
 HazardTracker::Record HazardTracker::writtenBy(const TimedBarrier& barrier) const {
@@ -193,7 +193,7 @@ bool HazardTracker::check(std::span<const TimedBarrier> barriers, WaitMinimizer*
 void HazardTracker::dropEndStages(std::span<const TimedBarrier> barriers) {
   for (Record& record : records_) {
     if (record.endOf == kNone || record.passed.empty()) continue;
-    EndStage& end = ends_[record.endOf];
+    EndStage& end = endStages_[record.endOf];
     if (end.known && end.needed) continue;
     std::vector<Passed> passed;
     std::swap(passed, record.passed);
@@ -208,7 +208,7 @@ void HazardTracker::dropEndStages(std::span<const TimedBarrier> barriers) {
 
 bool HazardTracker::needsAnotherPass() {
   bool result = false;
-  for (EndStage& end : ends_) {
+  for (EndStage& end : endStages_) {
     result = result || (end.needed && end.dropped);
     end.dropped = false;
     end.known = true;

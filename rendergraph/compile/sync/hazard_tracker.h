@@ -40,21 +40,20 @@ class HazardTracker {
  public:
   HazardTracker(const BarrierInputs& inputs, const Plan& plan, const SubmissionOrder& order);
 
-  /// Goes to the time before the graph.
+  /// Begins a cell: the records are those of its memory before the graph. The following calls are about this cell.
   void startCell(uint32_t resource, uint32_t cell, std::span<const MemoryPredecessor> predecessors);
-  /// The next epoch of the cell, which the following calls are about.
+  /// Takes the next epoch of the cell, which the following calls are about.
   void startEpoch(const Epoch& epoch);
-  /// Forgets at which stage resources end a frame for the next one's sake, where that is of no use here.
+  /// Drops a resource's end-of-frame stage if this epoch does not depend on it.
   void dropEndStages(std::span<const TimedBarrier> barriers);
-  /// After the last cell: whether the next frame relies on the stage at which the graph's last barrier of a resource
-  /// ends, when nobody else does.
-  bool needsEndStage(uint32_t resource) const { return ends_[resource].needed; }
-  /// Whether the stage at which some resource ends was of use to one of its successors, and taken for useless for
-  /// another. Then all cells must be gone through again; what is of use is known this time.
+  /// After the last cell: whether the next frame relies on the end-of-frame stage of a resource.
+  bool needsEndStage(uint32_t resource) const { return endStages_[resource].needed; }
+  /// True if one successor needs an end-of-frame stage that another successor's epoch dropped; all cells must then be
+  /// processed again, now knowing which stages are needed.
   bool needsAnotherPass();
-  /// Whether nothing is missing with these barriers, in the order in which they take effect.
+  /// Whether these barriers, in the order in which they take effect, leave no hazard for the epoch.
   bool isSynchronized(std::span<const TimedBarrier> barriers);
-  /// Goes to the time after the epoch, and notes what it relied on. Precondition: nothing is missing.
+  /// Adds the records of the epoch, and notes in `needs` which waits it relied on. Precondition: isSynchronized().
   void finishEpoch(std::span<const TimedBarrier> barriers, WaitMinimizer& needs);
 
  private:
@@ -65,7 +64,8 @@ class HazardTracker {
     uint32_t queue = 0;
     VkPipelineStageFlags2 stages = 0;
     VkAccessFlags2 access = 0;
-    std::vector<WaitStage> through;  // It was there if one of these had waited; none: in any case.
+    std::vector<WaitStage>
+        through;  // The record passed this barrier only if one of these waits happened; empty: unconditionally.
     bool operator==(const Passed&) const = default;
   };
   struct Record {
@@ -126,10 +126,13 @@ class HazardTracker {
   bool listAll_ = false;
   std::vector<std::vector<Record>> left_;  // By resource.
   std::vector<uint8_t> leftKnown_;         // By resource.
+  /// The stage at which a frame leaves a resource, for the next frame's first use to wait for.
   struct EndStage {
-    bool needed = true, dropped = false, known = false;
+    bool needed = true;    // Some successor relies on it.
+    bool dropped = false;  // Some successor's epoch was checked without it.
+    bool known = false;    // `needed` is final: it was found by a whole pass over the cells.
   };
-  std::vector<EndStage> ends_;  // By resource.
+  std::vector<EndStage> endStages_;  // Indexed by resource.
 };
 
 }  // namespace lensgraph::rendergraph

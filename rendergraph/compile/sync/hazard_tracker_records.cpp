@@ -92,7 +92,7 @@ void HazardTracker::addLeft(uint32_t resource, uint32_t cell, std::vector<Record
     changed.passed.push_back({0, after->stages, after->access, {}});
     if (asked == 0) {
       changed.endOf = resource;
-      ends_[resource].needed = false;  // As long as nobody needs it.
+      endStages_[resource].needed = false;  // As long as nobody needs it.
     }
     added.push_back(std::move(changed));
   } else if (!uses.empty() && (asked == 0 || (!uses.back().writes && !after->writes))) {

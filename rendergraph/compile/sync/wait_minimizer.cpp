@@ -1,4 +1,4 @@
-// A stage may go when all that it serves has another one. Each is looked at once: what is needed now is needed all the
+// A wait stage is removable if every need it satisfies is satisfied by another stage too. Each is looked at once: what is needed now is needed all the
 // more when others are gone.
 #include "rendergraph/compile/sync/wait_minimizer.h"
 

@@ -16,7 +16,7 @@ namespace lensgraph::rendergraph {
 
 namespace {
 
-constexpr uint32_t kMaxThreads = 64;  // More lanes than that only cost command buffers.
+constexpr uint32_t kMaxThreads = 64;  // Beyond this, further lanes only add command buffers.
 
 }  // namespace
 

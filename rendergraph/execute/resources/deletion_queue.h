@@ -1,4 +1,4 @@
-// What is no longer needed, kept until the device has finished the frames that may use it.
+// Deletion queue: keeps released objects alive until every frame that may use them has finished.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Evaluates lens.h and aperture.h on the device; tests/gpu/lens_gpu_test.cpp compares with the same functions in C++.
+// Evaluates lens.h and aperture.h on the device; tests/gpu/optics/lens_gpu_test.cpp compares with the same functions in C++.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lens_cases.h"
