@@ -1,4 +1,4 @@
-// What each fragment of a scene draw writes, and where.
+// What each fragment of a scene draw writes, and where: the contract between a host's materials and the techniques.
 // A host engine with shaders of its own implements these emits; ours are in shaders/scene.
 #ifndef LENSGRAPH_SHARED_EMIT_H
 #define LENSGRAPH_SHARED_EMIT_H
