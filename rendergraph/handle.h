@@ -15,7 +15,7 @@ inline constexpr uint32_t kNone = UINT32_MAX;
 
 template <class Tag>
 struct Handle {
-  uint32_t resource = UINT32_MAX;  ///< Index among the resources of the graph.
+  uint32_t resource = kNone;  ///< Index among the resources of the graph.
   uint32_t version = 0;            ///< Number of writes before this handle's content.
   uint32_t graph = 0;              ///< Serial number of the declaration that made it; 0 is no graph.
 
