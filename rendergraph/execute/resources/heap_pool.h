@@ -11,17 +11,17 @@ namespace lensgraph::rendergraph {
 
 /// A heap of the pool; it lives as long as some plan uses it.
 struct PooledHeap {
-  PlannedHeap planned;  ///< With its real size.
-  uint32_t slot = 0;    ///< Host-visible memory: index of the frame in flight that it serves.
+  PlannedHeap planned;         ///< With its real size.
+  uint32_t frameInFlight = 0;  ///< Host-visible memory: index of the frame in flight that it serves.
   UniqueHeap heap;
 };
 
 class HeapPool {
  public:
   using Heaps = std::vector<std::shared_ptr<PooledHeap>>;
-  /// A heap at least as large, which is not in `taken`; added to it. Host-visible ones serve one slot only.
+  /// A heap at least as large, which is not in `taken`; added to it. Host-visible ones serve one frame in flight only.
   /// Throws GraphError (outOfMemory, device).
-  HeapId acquire(Backend& backend, const PlannedHeap& planned, uint32_t slot, Heaps& taken);
+  HeapId acquire(Backend& backend, const PlannedHeap& planned, uint32_t frameInFlight, Heaps& taken);
 
  private:
   std::vector<std::weak_ptr<PooledHeap>> heaps_;

@@ -32,7 +32,7 @@ std::string_view largestIn(const Declaration& declaration, const Plan& plan, uin
 }  // namespace
 
 void PlanResources::make(Backend& backend, HeapPool& pool, const Declaration& declaration, const Plan& plan,
-                         uint32_t slot, bool hostVisible, Objects& into) {
+                         uint32_t frameInFlight, bool hostVisible, Objects& into) {
   if (into.complete) return;
   Objects made;
   made.heaps.resize(plan.heaps.size());
@@ -40,7 +40,7 @@ void PlanResources::make(Backend& backend, HeapPool& pool, const Declaration& de
     const PlannedHeap& heap = plan.heaps[i];
     if (heap.dedicated || (heap.memory != MemoryKind::device) != hostVisible) continue;
     namingResource(largestIn(declaration, plan, static_cast<uint32_t>(i)),
-                   [&] { made.heaps[i] = pool.acquire(backend, heap, slot, made.taken); });
+                   [&] { made.heaps[i] = pool.acquire(backend, heap, frameInFlight, made.taken); });
   }
   made.objects.resize(plan.placements.size());
   for (std::size_t i = 0; i < plan.placements.size(); ++i) {
@@ -57,10 +57,10 @@ void PlanResources::make(Backend& backend, HeapPool& pool, const Declaration& de
 }
 
 void PlanResources::prepare(Backend& backend, HeapPool& pool, const Declaration& declaration, const Plan& plan,
-                            uint32_t slot) {
-  make(backend, pool, declaration, plan, slot, false, device_);
-  Objects& own = slots_[slot];
-  make(backend, pool, declaration, plan, slot, true, own);
+                            uint32_t frameInFlight) {
+  make(backend, pool, declaration, plan, frameInFlight, false, device_);
+  Objects& own = byFrameInFlight_[frameInFlight];
+  make(backend, pool, declaration, plan, frameInFlight, true, own);
   for (const UniqueEvent& event : own.events) backend.resetEvent(event.get());
   own.events.reserve(plan.events.size());
   while (own.events.size() < plan.events.size()) {
@@ -69,11 +69,11 @@ void PlanResources::prepare(Backend& backend, HeapPool& pool, const Declaration&
   }
 }
 
-void PlanResources::enterInto(ResourceTable& table, const Plan& plan, uint32_t slot) {
+void PlanResources::enterInto(ResourceTable& table, const Plan& plan, uint32_t frameInFlight) {
   for (std::size_t i = 0; i < plan.placements.size(); ++i) {
     const Placement& placement = plan.placements[i];
     const bool hostVisible = plan.heaps[placement.heap].memory != MemoryKind::device;
-    table[placement.resource] = (hostVisible ? slots_[slot] : device_).objects[i].entry();
+    table[placement.resource] = (hostVisible ? byFrameInFlight_[frameInFlight] : device_).objects[i].entry();
   }
 }
 

@@ -2,7 +2,7 @@
 //
 // Device memory is shared among the plans of an executor, and by the frames in flight: the device executes one frame
 // after the other, so switching between graphs, or halving a resolution, costs no further memory. What the host reads
-// or writes while the device works on another frame exists once for each frame in flight (slot), as do events.
+// or writes while the device works on another frame exists once for each frame in flight, as do events.
 #pragma once
 
 #include <span>
@@ -18,17 +18,18 @@ namespace lensgraph::rendergraph {
 
 struct Declaration;
 
-/// Slots are the frames in flight of the executor, by index.
+/// Frames in flight are given by their index in the executor.
 class PlanResources {
  public:
-  explicit PlanResources(uint32_t slots) : slots_(slots) {}
+  explicit PlanResources(uint32_t framesInFlight) : byFrameInFlight_(framesInFlight) {}
 
-  /// Makes what the slot needs and does not exist, and unsets its events. The device has finished the slot's frame
+  /// Makes what the frame in flight needs and does not exist, and unsets its events. The device has finished its frame
   /// before. Throws GraphError that names the resource; what was made remains, for the next attempt.
-  void prepare(Backend& backend, HeapPool& pool, const Declaration& declaration, const Plan& plan, uint32_t slot);
-  /// Enters the objects of the plan's placements into the table. Precondition: prepare() for this slot.
-  void enterInto(ResourceTable& table, const Plan& plan, uint32_t slot);
-  std::span<const UniqueEvent> events(uint32_t slot) const { return slots_[slot].events; }
+  void prepare(Backend& backend, HeapPool& pool, const Declaration& declaration, const Plan& plan,
+               uint32_t frameInFlight);
+  /// Enters the objects of the plan's placements into the table. Precondition: prepare() for this frame in flight.
+  void enterInto(ResourceTable& table, const Plan& plan, uint32_t frameInFlight);
+  std::span<const UniqueEvent> events(uint32_t frameInFlight) const { return byFrameInFlight_[frameInFlight].events; }
 
  private:
   /// Objects by placement; those of the other kind of memory are empty. Destroyed before the heaps, views before images.
@@ -39,11 +40,11 @@ class PlanResources {
     std::vector<UniqueEvent> events;
     bool complete = false;
   };
-  void make(Backend& backend, HeapPool& pool, const Declaration& declaration, const Plan& plan, uint32_t slot,
+  void make(Backend& backend, HeapPool& pool, const Declaration& declaration, const Plan& plan, uint32_t frameInFlight,
             bool hostVisible, Objects& into);
 
   Objects device_;
-  std::vector<Objects> slots_;
+  std::vector<Objects> byFrameInFlight_;
 };
 
 }  // namespace lensgraph::rendergraph
