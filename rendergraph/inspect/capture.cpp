@@ -1,4 +1,4 @@
-// Follows every resource through the frame: who wrote what each read sees.
+// What follows from a capture: who wrote what each read sees, and the bytes alive at each step.
 #include "rendergraph/capture.h"
 
 #include <algorithm>
@@ -49,6 +49,15 @@ std::vector<CapturedEdge> edgesOf(const Capture& capture) {
   std::sort(edges.begin(), edges.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   return edges;
+}
+
+VkDeviceSize bytesAlive(const Capture& capture, uint32_t step) {
+  VkDeviceSize bytes = 0;
+  for (const CapturedResource& resource : capture.resources) {
+    if (resource.heap == kNone) continue;
+    if (resource.firstStep <= step && step <= resource.lastStep) bytes += resource.size;
+  }
+  return bytes;
 }
 
 }  // namespace lensgraph::rendergraph

@@ -142,13 +142,4 @@ void beginCapture(Capture& capture, const Declaration& declaration, const Plan& 
   }
 }
 
-VkDeviceSize bytesAlive(const Capture& capture, uint32_t step) {
-  VkDeviceSize bytes = 0;
-  for (const CapturedResource& resource : capture.resources) {
-    if (resource.heap == kNone) continue;
-    if (resource.firstStep <= step && step <= resource.lastStep) bytes += resource.size;
-  }
-  return bytes;
-}
-
 }  // namespace lensgraph::rendergraph

@@ -16,28 +16,6 @@ namespace lensgraph::rendergraph {
 
 namespace {
 
-std::string_view nameOf(VkAttachmentLoadOp load) {
-  switch (load) {
-    case VK_ATTACHMENT_LOAD_OP_LOAD:
-      return "load";
-    case VK_ATTACHMENT_LOAD_OP_CLEAR:
-      return "clear";
-    default:
-      return "dontCare";
-  }
-}
-
-std::string_view nameOf(VkAttachmentStoreOp store) {
-  switch (store) {
-    case VK_ATTACHMENT_STORE_OP_STORE:
-      return "store";
-    case VK_ATTACHMENT_STORE_OP_NONE:
-      return "none";
-    default:
-      return "dontCare";
-  }
-}
-
 /// "mip 2", "mips 0-3 layer 1"; empty for the whole image.
 std::string rangeText(const Subresources& range, const ImageDesc& desc) {
   const auto part = [](std::string_view word, uint32_t first, uint32_t count, uint32_t total) -> std::string {

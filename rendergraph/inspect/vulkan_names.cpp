@@ -115,4 +115,26 @@ std::string layoutName(VkImageLayout layout) {
   }
 }
 
+std::string_view nameOf(VkAttachmentLoadOp load) {
+  switch (load) {
+    case VK_ATTACHMENT_LOAD_OP_LOAD:
+      return "load";
+    case VK_ATTACHMENT_LOAD_OP_CLEAR:
+      return "clear";
+    default:
+      return "dontCare";
+  }
+}
+
+std::string_view nameOf(VkAttachmentStoreOp store) {
+  switch (store) {
+    case VK_ATTACHMENT_STORE_OP_STORE:
+      return "store";
+    case VK_ATTACHMENT_STORE_OP_NONE:
+      return "none";
+    default:
+      return "dontCare";
+  }
+}
+
 }  // namespace lensgraph::rendergraph

@@ -1,4 +1,4 @@
-// Short words for Vulkan's stages, accesses and layouts, for dumps.
+// Short words for Vulkan's stages, accesses, layouts, load and store operations, for dumps.
 #pragma once
 
 #include <vulkan/vulkan_core.h>
@@ -13,5 +13,8 @@ std::string stageNames(VkPipelineStageFlags2 stages);
 std::string accessNames(VkAccessFlags2 access);
 /// "undefined", "general", …; the number for a layout that the graph never uses itself.
 std::string layoutName(VkImageLayout layout);
+/// "load", "clear", "dontCare"; "store", "none", "dontCare".
+std::string_view nameOf(VkAttachmentLoadOp load);
+std::string_view nameOf(VkAttachmentStoreOp store);
 
 }  // namespace lensgraph::rendergraph

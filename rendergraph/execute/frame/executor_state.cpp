@@ -17,7 +17,7 @@ namespace {
 CompileOptions compileOptionsOf(const ExecuteOptions& options) {
   CompileOptions compile = options.compile;
   if (options.timing != Timing::isolated) return compile;
-  compile.mergeRasterPasses = false;  // What is to be timed alone stands alone.
+  compile.mergeRasterPasses = false;  // Every pass gets a rendering of its own, so that it can be timed alone.
   compile.splitDistance = 0;
   compile.useQueues = false;
   return compile;
@@ -52,7 +52,8 @@ uint64_t ExecutorState::runFrame(const Declaration& declaration, const CompileOp
   const Clock::time_point start = Clock::now();
   if (timing == Timing::isolated) waitForAll();
   FrameInFlight& frame = openFrame();
-  frame.start = start;
+  // A frame that the host submits begins when it is recorded; waiting for the previous one is the host's affair.
+  frame.start = state == FrameInFlight::State::recorded ? Clock::now() : start;
   try {
     CompileOptions compile = options;
     if (frames_.size() > 1) compile.overlappingFrames = true;
@@ -159,12 +160,15 @@ void ExecutorState::openTimestamps(FrameInFlight& frame) {
 void ExecutorState::abandon(FrameInFlight& frame) noexcept {
   context_.declaration = nullptr;
   frame.exports.serial = 0;
-  frame.importedViews.clear();
-  if (frame.sent.empty()) return;
+  if (frame.sent.empty()) {
+    frame.importedViews.clear();
+    return;
+  }
   plans_.abandon();
   try {
     timelines_.wait(frame, frame.sent);
     frame.sent.clear();
+    frame.importedViews.clear();  // Not before: what was submitted may use the views.
   } catch (...) {
     // The error that ended the frame is the one to report. The device may still be at work: the next call waits again.
     frames_.close(frame, FrameInFlight::State::submitted);

@@ -170,4 +170,45 @@ TEST(Failures, AThousandReconfigurationsLeaveNothingBehind) {
   }
 }
 
+// On two queues a frame has several submissions, so it may break off while the device executes the first of them.
+TEST(Failures, ViewsOfImportedImagesOutliveWhatWasSubmittedOfABrokenFrame) {
+  const ImportedImage imported{
+      .image = FakeBackend::as<VkImage>(7), .usage = VK_IMAGE_USAGE_SAMPLED_BIT, .before = kSampled, .after = kSampled};
+  FakeBackend backend;
+  backend.failWith = Misuse::outOfMemory;
+  backend.queueFacts = {{.family = 0}, {.family = 1, .graphics = false}};
+  bool brokeOffLate = false;
+  int silent = 0;
+  for (int failing = 0; silent < 10; ++failing) {
+    Executor executor(backend);
+    Graph graph;
+    const Image scene = graph.importImage("scene", kDesc, imported);
+    Pass filter = graph.addPass("filter", PassKind::compute);
+    filter.prefer(QueuePreference::asyncCompute);
+    filter.sample(scene);
+    const Image filtered = filter.write(graph.createImage("filtered", kDesc), Usage::storage);
+    filter.record([=](PassContext& context) {
+      const Binding bindings[] = {sampled(scene), storage(filtered)};
+      context.dispatch({.program = kCompute, .bindings = bindings, .groups = {}});
+    });
+    Pass show = graph.addPass("show", PassKind::raster);
+    show.sample(filtered);
+    const Image shown = show.color(graph.createImage("shown", kDesc));
+    show.record([](PassContext& context) { context.draw({.program = kRaster, .bindings = {}}); });
+    graph.exportImage(shown, kSampled);
+    const std::size_t before = backend.submissions.size();
+    backend.failCallAfter = failing;
+    try {
+      executor.submit(graph);
+      ++silent;
+    } catch (const GraphError&) {
+      silent = 0;
+      brokeOffLate = brokeOffLate || backend.submissions.size() > before;
+    }
+    backend.failCallAfter = -1;
+  }
+  EXPECT_TRUE(brokeOffLate) << "a submission was given to the device before the frame broke off";
+  EXPECT_THAT(backend.mistakes, testing::IsEmpty());
+}
+
 }  // namespace lensgraph
