@@ -1,9 +1,12 @@
 // Reads shot files: see shot.h. Field by field in the order of a shot; the ranges of lens fields are
-// engine/lens's.
+// those of passes/lens/physical_lens.h.
 #include "samples/host/shot.h"
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -30,24 +33,27 @@ path existingFile(const JsonNode& node, const path& folder) {
   return file;
 }
 
-glm::dquat parseRotation(const JsonNode& node) {
+/// A unit quaternion x, y, z, w.
+glm::dvec4 parseRotation(const JsonNode& node) {
   const auto parts = node.elements(4, "a quaternion [x, y, z, w]");
   const double x = parts[0].number(), y = parts[1].number(), z = parts[2].number(), w = parts[3].number();
   // Scaled by the largest part first: squares of tiny or huge numbers would leave the range of double.
   const double largest = std::max({std::abs(x), std::abs(y), std::abs(z), std::abs(w)});
   if (largest == 0.0) node.fail("is a zero quaternion", "no rotation is [0, 0, 0, 1]");
-  return glm::normalize(glm::dquat(w / largest, x / largest, y / largest, z / largest));
+  const auto unit = glm::normalize(glm::dquat(w / largest, x / largest, y / largest, z / largest));
+  return {unit.x, unit.y, unit.z, unit.w};
 }
 
 ScenePart parsePart(const JsonNode& node, const path& folder) {
   node.requireObject({"path", "translation", "rotation", "scale"});
   ScenePart part;
   part.path = existingFile(node.at("path", "name a .gltf or .glb file"), folder);
-  if (const auto translation = node.find("translation")) part.translation = translation->vector("[x, y, z]");
-  if (const auto rotation = node.find("rotation")) part.rotation = parseRotation(*rotation);
+  if (const auto translation = node.find("translation")) part.transform.translation = translation->vector("[x, y, z]");
+  if (const auto rotation = node.find("rotation")) part.transform.rotation = parseRotation(*rotation);
   if (const auto scale = node.find("scale")) {
-    part.scale = scale->vector("[x, y, z]");
-    if (part.scale.x == 0.0 || part.scale.y == 0.0 || part.scale.z == 0.0) {
+    const glm::dvec3 factors = scale->vector("[x, y, z]");
+    part.transform.scale = factors;
+    if (factors.x == 0.0 || factors.y == 0.0 || factors.z == 0.0) {
       scale->fail("has a zero", "a scene scaled by 0 cannot be seen; leave it out of the shot instead");
     }
   }
@@ -128,7 +134,7 @@ void parseApertureRadius(const JsonNode& lensNode, passes::Lens& lens) {
   }
 }
 
-/// engine/lens's complaint with the value that the file gives: "is -2, must be …".
+/// The lens's complaint with the value that the file gives: "is -2, must be …".
 [[noreturn]] void failLens(const JsonNode& lensNode, const passes::LensProblem& problem) {
   const auto value = lensNode.find(problem.field);
   if (!value) lensNode.failAt(problem.field, problem.reason, problem.remedy);

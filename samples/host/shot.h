@@ -3,12 +3,11 @@
 
 #include <array>
 #include <filesystem>
-#include <glm/gtc/quaternion.hpp>
-#include <glm/vec3.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "engine/gltf/load_gltf.h"
 #include "engine/scene/camera.h"
 #include "passes/lens/physical_lens.h"
 #include "passes/parameters.h"
@@ -19,10 +18,8 @@ namespace lensgraph::host {
 inline constexpr int kMaxResolution = 16384;
 
 struct ScenePart {
-  std::filesystem::path path;  ///< Absolute, or relative to the working directory: resolved by the parser.
-  glm::dvec3 translation{0.0};
-  glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
-  glm::dvec3 scale{1.0};
+  std::filesystem::path path;       ///< Absolute, or relative to the working directory: resolved by the parser.
+  engine::FileTransform transform;  ///< Its rotation is of unit length.
 };
 
 struct ShotCamera : engine::LookAt {

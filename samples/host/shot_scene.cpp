@@ -1,6 +1,9 @@
 // Loading of a shot's parts.
 #include "samples/host/shot_scene.h"
 
+#include <glm/mat4x4.hpp>
+#include <utility>
+
 #include "engine/gltf/load_gltf.h"
 
 namespace lensgraph::host {
@@ -9,11 +12,8 @@ engine::Scene loadShotScene(const Shot& shot, std::vector<std::string>& warnings
   engine::Scene scene;
   const engine::GltfOptions options{.loadShadingTextures = shot.shading == Shading::lit};
   for (const auto& part : shot.scene) {
-    const engine::FileTransform placement{
-        .translation = part.translation,
-        .rotation = {part.rotation.x, part.rotation.y, part.rotation.z, part.rotation.w},
-        .scale = part.scale};
-    for (auto& warning : engine::appendGltf(scene, part.path, engine::worldFromFileTransform(placement), options)) {
+    const glm::dmat4 worldFromFile = engine::worldFromFileTransform(part.transform);
+    for (auto& warning : engine::appendGltf(scene, part.path, worldFromFile, options)) {
       warnings.push_back(std::move(warning));
     }
   }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/vec3.hpp>
 #include <nlohmann/json.hpp>
 
 #include "engine/error.h"
@@ -67,7 +68,7 @@ TEST_F(ShotFile, TakesDefaultsForWhatIsAbsent) {
   EXPECT_EQ(shot.lens.apertureRadius, 0.03);
   EXPECT_EQ(shot.lens.fovModel, passes::FovModel::pinhole);
   ASSERT_EQ(shot.scene.size(), 1u);
-  EXPECT_EQ(shot.scene[0].scale, glm::dvec3(1));
+  EXPECT_EQ(shot.scene[0].transform.scale, glm::dvec3(1));
 }
 
 TEST_F(ShotFile, ResolvesPathsAgainstItsOwnFolder) {
@@ -80,17 +81,17 @@ TEST_F(ShotFile, ReadsPlacement) {
   shot["scene"][0]["rotation"] = {0, 3, 0, 4};  // x y z w, not of unit length
   shot["scene"][0]["scale"] = {2, -2, 0.5};
   const auto part = read(shot).scene[0];
-  EXPECT_EQ(part.translation, glm::dvec3(1, 2, 3));
-  EXPECT_DOUBLE_EQ(part.rotation.y, 0.6);
-  EXPECT_DOUBLE_EQ(part.rotation.w, 0.8);
-  EXPECT_EQ(part.scale, glm::dvec3(2, -2, 0.5));
+  EXPECT_EQ(part.transform.translation, glm::dvec3(1, 2, 3));
+  EXPECT_DOUBLE_EQ(part.transform.rotation.y, 0.6);
+  EXPECT_DOUBLE_EQ(part.transform.rotation.w, 0.8);
+  EXPECT_EQ(part.transform.scale, glm::dvec3(2, -2, 0.5));
 }
 
 TEST_F(ShotFile, NormalisesQuaternionsOfAnyLength) {
   for (const double length : {1e-300, 1e300}) {
     auto shot = minimal();
     shot["scene"][0]["rotation"] = {length, 0, 0, 0};
-    EXPECT_DOUBLE_EQ(read(shot).scene[0].rotation.x, 1.0) << length;
+    EXPECT_DOUBLE_EQ(read(shot).scene[0].transform.rotation.x, 1.0) << length;
   }
 }
 
