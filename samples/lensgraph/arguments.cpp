@@ -1,5 +1,5 @@
 // The command line's words. The only user of CLI11: each function below describes one subcommand and binds it
-// to its function in commands.h.
+// to its function in subcommands.h.
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
