@@ -31,25 +31,25 @@ class BadInput : public cli_test::ProgramTest {
 
 // ---- Files
 
-TEST_F(BadInput, MissingShot) {
+TEST_F(BadInput, AMissingShotIsRefused) {
   expectRefused({"render", "absent.json", "-o", "out.exr"}, {"absent.json", "no such file"});
 }
 
-TEST_F(BadInput, MissingScene) {
+TEST_F(BadInput, AMissingSceneIsRefused) {
   expectShotRefused("/scene/0/path", "absent.glb", {"shot.json", "scene[0].path", "absent.glb", "no such file"});
 }
 
-TEST_F(BadInput, MalformedJson) {
+TEST_F(BadInput, MalformedJsonIsRefusedWithLineAndColumn) {
   write("shot.json", "{\n  \"scene\": [\n}");
   expectRefused({"render", "shot.json", "-o", "out.exr"}, {"shot.json", "line 3, column 1", "syntax error"});
 }
 
-TEST_F(BadInput, BinaryFileAsShot) {
+TEST_F(BadInput, ABinaryFileIsRefusedAsAShot) {
   write("shot.json", std::string("\x89PNG\r\n\x1a\n\0\n", 10));
   expectRefused({"render", "shot.json", "-o", "out.exr"}, {"shot.json", "line 1, column 1"});
 }
 
-TEST_F(BadInput, TruncatedGlb) {
+TEST_F(BadInput, ATruncatedGlbIsRefused) {
   writeQuadGlb(0);
   json good = shot();
   good["scene"][0]["path"] = "quad.glb";
@@ -63,23 +63,23 @@ TEST_F(BadInput, TruncatedGlb) {
   }
 }
 
-TEST_F(BadInput, IndexOutOfRange) {
+TEST_F(BadInput, AnIndexOutOfRangeIsRefused) {
   writeQuad({.lastIndex = 4});
   expectRefused({"render", "shot.json", "-o", "out.exr"}, {"quad.gltf", "meshes[0].primitives[0]", "4"});
 }
 
-TEST_F(BadInput, NanPositions) {
+TEST_F(BadInput, NanPositionsAreRefused) {
   writeQuad({.firstX = std::nanf("")});
   expectRefused({"render", "shot.json", "-o", "out.exr"}, {"quad.gltf", "POSITION"});
 }
 
-TEST_F(BadInput, EmptyImage) {
+TEST_F(BadInput, AnEmptyImageOfASceneIsRefused) {
   writeQuad({.textured = true});
   write("texture.png", "");
   expectRefused({"render", "shot.json", "-o", "out.exr"}, {"quad.gltf", "images[0]", "texture.png"});
 }
 
-TEST_F(BadInput, EmptyPictures) {
+TEST_F(BadInput, EmptyPicturesAreRefused) {
   write("empty.exr", "");
   expectRefused({"compare", "empty.exr", "empty.exr"}, {"empty.exr"});
   expectRefused({"apply", "--color", "empty.exr", "--depth", "empty.exr", "--fovy", "40", "--aperture-radius", "0.01",
@@ -87,7 +87,7 @@ TEST_F(BadInput, EmptyPictures) {
                 {"empty.exr"});
 }
 
-TEST_F(BadInput, PicturesOfDifferentSizes) {
+TEST_F(BadInput, PicturesOfDifferentSizesAreNotCompared) {
   engine::writeImage(folder() / "small.exr", engine::FloatImage(4, 4, 3));
   engine::writeImage(folder() / "large.exr", engine::FloatImage(8, 4, 3));
   expectRefused({"compare", "small.exr", "large.exr"}, {"4", "8"});
@@ -95,19 +95,19 @@ TEST_F(BadInput, PicturesOfDifferentSizes) {
 
 // ---- Techniques and parameters
 
-TEST_F(BadInput, UnknownTechnique) {
+TEST_F(BadInput, AnUnknownTechniqueIsRefusedWithTheNearestName) {
   expectRefused({"render", "shot.json", "--technique", "pinhol", "-o", "out.exr"}, {"pinhol", "did you mean pinhole?"});
   expectShotRefused("/technique", {{"name", "acumulation"}}, {"technique.name", "accumulation"});
 }
 
-TEST_F(BadInput, UnknownParameter) {
+TEST_F(BadInput, AnUnknownParameterIsRefusedWithTheNearestName) {
   expectRefused({"render", "shot.json", "--technique", "accumulation", "--set", "lensSample=4", "-o", "out.exr"},
                 {"lensSample", "did you mean", "lensSamples"});
   expectShotRefused("/technique", {{"name", "accumulation"}, {"lensSample", 4}},
                     {"technique.lensSample", "lensSamples"});
 }
 
-TEST_F(BadInput, ParameterOutOfRange) {
+TEST_F(BadInput, AParameterOutOfRangeIsRefused) {
   for (const std::string value : {"0", "-1", "65537", "1e99", "many", "nan", ""}) {
     SCOPED_TRACE(value);
     expectRefused(
@@ -117,7 +117,7 @@ TEST_F(BadInput, ParameterOutOfRange) {
   expectShotRefused("/technique", {{"name", "accumulation"}, {"lensSamples", 0}}, {"technique.lensSamples"});
 }
 
-TEST_F(BadInput, ConfigurationFile) {
+TEST_F(BadInput, ABadConfigurationFileIsRefused) {
   const std::vector<std::string> arguments = {"render", "shot.json", "--config", "config.json", "-o", "out.exr"};
   expectRefused(arguments, {"config.json", "no such file"});
   write("config.json", "{\"technique\": {\"name\": \"accumulation\", \"lensSamples\": }}");
@@ -130,7 +130,7 @@ TEST_F(BadInput, ConfigurationFile) {
   expectRefused(contradiction, {"config.json", "accumulation", "pinhole"});
 }
 
-TEST_F(BadInput, TechniqueThatDrawsOnAPicture) {
+TEST_F(BadInput, ATechniqueThatDrawsIsRefusedForAPicture) {
   expectRefused({"apply", "--color", "c.exr", "--depth", "z.exr", "--fovy", "40", "--aperture-radius", "0.01",
                  "--focus", "1", "--technique", "accumulation", "-o", "out.exr"},
                 {"accumulation", "two_pass_filter"});
@@ -138,7 +138,7 @@ TEST_F(BadInput, TechniqueThatDrawsOnAPicture) {
 
 // ---- Numbers
 
-TEST_F(BadInput, Resolution) {
+TEST_F(BadInput, ABadResolutionIsRefused) {
   for (const int side : {0, -1, 20000}) {
     expectShotRefused("/resolution", {side, 24}, {"resolution[0]", std::to_string(side)});
     expectShotRefused("/resolution", {32, side}, {"resolution[1]", std::to_string(side)});
@@ -149,12 +149,12 @@ TEST_F(BadInput, Resolution) {
   }
 }
 
-TEST_F(BadInput, FocusDistance) {
+TEST_F(BadInput, ABadFocusDistanceIsRefused) {
   for (const double focus : {0.0, -1.0}) expectShotRefused("/lens/focusDistance", focus, {"lens.focusDistance"});
   expectShotRefused("/lens/focusDistance", "nan", {"lens.focusDistance", "infinity"});
 }
 
-TEST_F(BadInput, FNumber) {
+TEST_F(BadInput, ABadFNumberIsRefused) {
   expectShotRefused("/lens", {{"fStop", -2.8}, {"focusDistance", 1}}, {"lens.fStop", "-2.8"});
   expectShotRefused("/lens", {{"fStop", "nan"}, {"focusDistance", 1}}, {"lens.fStop"});
   write("shot.json", R"({"scene": [], "lens": {"fStop": NaN}})");
@@ -168,7 +168,7 @@ struct BadLens {
   std::string option;
 };
 
-TEST_F(BadInput, LensOfApply) {
+TEST_F(BadInput, ABadLensOfApplyIsRefused) {
   const BadLens rows[] = {
       {{"--aperture-radius", "-1", "--focus", "1"}, "--aperture-radius"},
       {{"--aperture-radius", "nan", "--focus", "1"}, "--aperture-radius"},
@@ -192,7 +192,7 @@ TEST_F(BadInput, LensOfApply) {
   }
 }
 
-TEST_F(BadInput, Exposure) {
+TEST_F(BadInput, ABadExposureIsRefused) {
   for (const std::string value : {"nan", "inf", "bright"}) {
     expectRefused({"render", "shot.json", "--exposure", value, "-o", "out.png"}, {"--exposure"});
   }
@@ -200,7 +200,7 @@ TEST_F(BadInput, Exposure) {
 
 // ---- Outputs
 
-TEST_F(BadInput, UnwritableOutput) {
+TEST_F(BadInput, AnUnwritableOutputIsRefused) {
   expectRefused({"render", "shot.json", "-o", "absent/out.exr"}, {"absent/out.exr", "no such folder: absent"});
   expectRefused({"render", "shot.json", "-o", "/proc/out.exr"}, {"/proc/out.exr", "cannot be written"});
   expectRefused({"render", "shot.json", "-o", "shot.json/out.exr"}, {"shot.json/out.exr"});
@@ -211,14 +211,14 @@ TEST_F(BadInput, UnwritableOutput) {
   expectRefused({"graph", "shot.json", "--technique", "pinhole", "--dot", "absent/g.dot"}, {"absent/g.dot", "--dot"});
 }
 
-TEST_F(BadInput, UnknownPictureFormat) {
+TEST_F(BadInput, AnUnknownPictureFormatIsRefused) {
   expectRefused({"render", "shot.json", "-o", "out.jpg"}, {"out.jpg", ".jpg", ".exr"});
   expectRefused({"render", "shot.json", "-o", "out"}, {"out", "extension"});
 }
 
 // ---- Usage
 
-TEST_F(BadInput, Usage) {
+TEST_F(BadInput, BadUsageIsRefusedWithAdvice) {
   expectRefused({}, {"command line", "no subcommand", "--help"});
   expectRefused({"rendr", "shot.json"}, {"rendr", "did you mean render?"});
   expectRefused({"render", "shot.json", "--techniqe", "pinhole", "-o", "out.exr"}, {"--techniqe", "--technique"});
@@ -229,7 +229,7 @@ TEST_F(BadInput, Usage) {
   expectRefused({"demo", "--scenes", "absent"}, {"absent", "--scenes"});
 }
 
-TEST_F(BadInput, UnknownDevice) {
+TEST_F(BadInput, AnUnknownDeviceIsRefused) {
   expectRefused({"render", "shot.json", "--device", "no such device", "-o", "out.exr"}, {"no such device"});
   expectRefused({"render", "shot.json", "--device", "99", "-o", "out.exr"}, {"99"});
 }

@@ -183,7 +183,7 @@ TEST_F(FragmentLists, AreSortedAndCompactedAsOnTheHost) {
   }
 }
 
-TEST_F(FragmentLists, MayAllBeEmptyOrEqual) {
+TEST_F(FragmentLists, AllListsMayBeEmptyOrEqual) {
   EXPECT_TRUE(onDevice(Lists(kWidth), 4, multilayer::Faces::all, 1) == CompactedLists(kWidth));
   std::mt19937 random(3);
   const Lists equal(kWidth, std::vector<Fragment>(9, randomFragment(random)));
@@ -191,7 +191,7 @@ TEST_F(FragmentLists, MayAllBeEmptyOrEqual) {
 }
 
 // Too long to be sorted within what a device lets a loop do: said, not silently wrong; nothing is read out of bounds.
-TEST_F(FragmentLists, ThatAreTooLongAreCounted) {
+TEST_F(FragmentLists, ListsThatAreTooLongToSortAreCounted) {
   std::mt19937 random(4);
   Lists lists(kWidth);
   for (int i = 0; i < 70000; ++i) lists[5].push_back(randomFragment(random));
@@ -201,7 +201,7 @@ TEST_F(FragmentLists, ThatAreTooLongAreCounted) {
 }
 
 // Room for less than there is: the first lists are whole, what is beyond is left out, and counted when a picture is made.
-TEST_F(FragmentLists, ThatFindNoRoomAreLeftOut) {
+TEST_F(FragmentLists, ListsThatFindNoRoomAreLeftOut) {
   std::mt19937 random(5);
   Lists lists(kWidth * 4);
   for (auto& list : lists) {

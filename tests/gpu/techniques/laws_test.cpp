@@ -75,7 +75,7 @@ TEST_P(Laws, ConstantColourStaysConstant) {
   EXPECT_LE(worst, 1e-3);
 }
 
-TEST_P(Laws, FiniteInFiniteOut) {
+TEST_P(Laws, FiniteInputsGiveFinitePictures) {
   for (const float radiance : {0.0f, 1e-40f, 65504.0f, 1e30f, std::numeric_limits<float>::max()}) {
     engine::Scene scene = support::layeredScene();
     support::addFacingQuad(scene, 1.0, 0.2, 0.1, 0.05, 0.1,
@@ -96,7 +96,7 @@ TEST_P(Laws, NonFiniteInputDoesNotSpread) {
   EXPECT_GT(picture.statistics.replacedTexels, 0u);
 }
 
-TEST_P(Laws, SameBitsRunToRun) {
+TEST_P(Laws, EveryRunGivesTheSameBits) {
   host::Renderer renderer(support::device(), support::layeredScene(), std::nullopt);
   host::Renderer another(support::device(), support::layeredScene(), std::nullopt);
   const auto shot = support::smallShot(131, 77);

@@ -297,7 +297,7 @@ constexpr BadField kBadFields[] = {
 };
 INSTANTIATE_TEST_SUITE_P(Each, BadShotField, testing::ValuesIn(kBadFields));
 
-TEST(Shots, WithRayTracedPicturesAreRead) {
+TEST(Shots, ShotsWithRayTracedPicturesAreRead) {
   const std::filesystem::path folder = LENSGRAPH_SHOTS_DIR;
   if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << "no shots";
   int count = 0;

@@ -55,13 +55,13 @@ TEST_F(Assignment, SetsAParameter) {
   EXPECT_EQ(std::get<double>(choice_.parameters.at(name())), number_->max);
 }
 
-TEST_F(Assignment, LaterOnesWin) {
+TEST_F(Assignment, LaterAssignmentsWin) {
   host::setParameter(choice_, name() + "=" + passes::toString(number_->max));
   host::setParameter(choice_, name() + "=" + passes::toString(number_->min));
   EXPECT_EQ(std::get<double>(choice_.parameters.at(name())), number_->min);
 }
 
-TEST_F(Assignment, RefusesWhatIsNone) {
+TEST_F(Assignment, TextWithoutKeyOrEqualsSignIsRefused) {
   for (const std::string text : {"", "noEquals", "=1"}) {
     EXPECT_THAT(errorOf([&] { host::setParameter(choice_, text); }).remedy, HasSubstr("key=value")) << text;
   }
@@ -112,7 +112,7 @@ TEST_F(TechniqueFile, IsRefusedWithTheField) {
             "technique.nonsense");
 }
 
-TEST(Technique, UnknownOnesAreRefusedWithTheNearestName) {
+TEST(Technique, UnknownTechniquesAreRefusedWithTheNearestName) {
   const auto error = errorOf([] { host::requireTechnique("two_pas_filter", "file", "field"); });
   EXPECT_EQ(error.file, "file");
   EXPECT_EQ(error.field, "field");

@@ -22,7 +22,7 @@ std::vector<float> decoded(VkFormat format, const std::vector<T>& words,
   return host::pictureOf(std::as_bytes(std::span(words)), format, aspect, {1, 1}).samples;
 }
 
-TEST(Texels, OfEveryKindOfComponent) {
+TEST(Texels, EveryKindOfComponentIsDecoded) {
   EXPECT_THAT(decoded<float>(VK_FORMAT_R32G32B32A32_SFLOAT, {1.5f, -2.0f, 0.0f, 1.0f}),
               ElementsAre(1.5f, -2.0f, 0.0f, 1.0f));
   EXPECT_THAT(decoded<float>(VK_FORMAT_R32_SFLOAT, {0.25f}), ElementsAre(0.25f));
@@ -44,7 +44,7 @@ TEST(Texels, OfEveryKindOfComponent) {
               ElementsAre(1.0f, 0.5f, 2.0f));
 }
 
-TEST(Texels, OfDepthAndStencil) {
+TEST(Texels, DepthAndStencilAreDecoded) {
   EXPECT_THAT(decoded<float>(VK_FORMAT_D32_SFLOAT, {0.75f}, VK_IMAGE_ASPECT_DEPTH_BIT), ElementsAre(0.75f));
   EXPECT_THAT(decoded<float>(VK_FORMAT_D32_SFLOAT_S8_UINT, {0.75f}, VK_IMAGE_ASPECT_DEPTH_BIT), ElementsAre(0.75f));
   EXPECT_THAT(decoded<uint16_t>(VK_FORMAT_D16_UNORM, {65535}, VK_IMAGE_ASPECT_DEPTH_BIT), ElementsAre(1.0f));
@@ -54,7 +54,7 @@ TEST(Texels, OfDepthAndStencil) {
   EXPECT_THAT(decoded<uint8_t>(VK_FORMAT_S8_UINT, {7}, VK_IMAGE_ASPECT_STENCIL_BIT), ElementsAre(7.0f));
 }
 
-TEST(Texels, OfFormatsThatAreNoPictureAreRefused) {
+TEST(Texels, FormatsThatAreNoPictureAreRefused) {
   EXPECT_THROW(decoded<uint64_t>(VK_FORMAT_BC1_RGB_UNORM_BLOCK, {0}), engine::Error);
   EXPECT_THROW(decoded<double>(VK_FORMAT_R64_SFLOAT, {0.0}), engine::Error);
 }

@@ -111,7 +111,7 @@ TEST_F(Captures, AreReadBack) {
   EXPECT_EQ(facts.peakBytes, 256u);
 }
 
-TEST_F(Captures, ThatAreNoneOrBrokenAreRefused) {
+TEST_F(Captures, FilesThatAreNoCaptureOrABrokenOneAreRefused) {
   const json good = capture({pass("a", time(4))});
   for (const json& document :
        {json::array(), json::object(), json(3), json{{"format", 1}}, json{{"graph", {{"passes", 1}}}}}) {
@@ -163,7 +163,7 @@ TEST_F(Captures, DifferBySizeOfTheChange) {
   EXPECT_EQ(cli::diffJson(diff)["passes"][5]["gpuMs"]["weight"], "noise");
 }
 
-TEST_F(Captures, ThatAreEqualDifferInNothing) {
+TEST_F(Captures, EqualCapturesDifferInNothing) {
   const auto facts = read(capture({pass("a", time(4)), pass("a", time(2))}));
   const auto diff = cli::diffCaptures(facts, facts);
   EXPECT_THAT(order(diff), ElementsAre("a", "a #2"));
@@ -171,7 +171,7 @@ TEST_F(Captures, ThatAreEqualDifferInNothing) {
   EXPECT_THAT(cli::diffText(diff, "a", "b"), HasSubstr("passes that changed: 0 of 2"));
 }
 
-TEST_F(Captures, OfOneFrameHaveNoSpread) {
+TEST_F(Captures, CapturesOfOneFrameHaveNoSpread) {
   json one = capture({pass("a", time(4, 0))}), other = capture({pass("a", time(5, 0))});
   one["graph"]["frames"] = 1;
   const auto diff = cli::diffCaptures(read(one), read(other));

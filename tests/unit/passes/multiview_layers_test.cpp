@@ -50,7 +50,7 @@ TEST(SceneLayers, NothingBetweenIntervalsGetsALayer) {
   EXPECT_LT(layers[1].nearest, 0.3f);
 }
 
-TEST(SceneLayers, NeverMoreThanAllowedAndEverythingStaysCovered) {
+TEST(SceneLayers, LayersAreNeverMoreThanAllowedAndCoverEverything) {
   std::mt19937 random(7);
   std::uniform_real_distribution<float> uniform(0.0f, 1.0f);
   for (int round = 0; round < 300; ++round) {
@@ -85,13 +85,13 @@ TEST(SceneLayers, NeverMoreThanAllowedAndEverythingStaysCovered) {
   }
 }
 
-TEST(SceneLayers, AFixedCountIsUsedUp) {
+TEST(SceneLayers, AFixedCountOfLayersIsUsedUp) {
   for (const uint32_t count : {1u, 2u, 7u, 16u, 64u}) {
     EXPECT_EQ(layersOf({{0.1f, 1.0f}}, {.pixelsPerVergence = 20.0, .fixedCount = count}).size(), count);
   }
 }
 
-TEST(SceneLayers, AnEmptySceneHasOne) {
+TEST(SceneLayers, AnEmptySceneHasOneLayer) {
   EXPECT_EQ(layersOf({}, {.pixelsPerVergence = 20.0}).size(), 1u);
 }
 

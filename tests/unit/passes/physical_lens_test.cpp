@@ -140,7 +140,7 @@ TEST(Lens, TheCocIsNegativeInFrontAndPositiveBehind) {
 }
 
 // 85 mm f/1.4 at 3 m, sky, 1080 lines, 24 mm sensor: image distance · E · V_f over the pixel, by hand.
-TEST(Lens, AWorkedExample) {
+TEST(Lens, TheBlurOfAnEightyFiveMillimeterLensIsAsWorkedOutByHand) {
   Lens lens;
   lens.focalLengthMm = 85.0;
   lens.fStop = 1.4;
