@@ -78,17 +78,6 @@ void declareComposite(Graph& graph, const DofInputs& inputs, const std::string& 
 
 }  // namespace
 
-std::vector<Problem> checkSceneInputs(const DofInputs& inputs) {
-  std::vector<Problem> problems;
-  if (inputs.scene == nullptr || !inputs.scene->record) {
-    problems.push_back({"", "the technique draws a scene, and there is none", "set DofInputs::scene"});
-  }
-  if (inputs.extent.width == 0 || inputs.extent.height == 0) {
-    problems.push_back({"", "the picture has no pixels", "set DofInputs::extent"});
-  }
-  return problems;
-}
-
 SceneViewOutputs declareSceneView(Graph& graph, const DofInputs& inputs, const std::string& prefix,
                                   const shared::ViewConstants& view, Buffer statistics) {
   const auto [width, height] = inputs.extent;

@@ -145,16 +145,6 @@ std::span<const Field<Parameters>> fields() {
   return all;
 }
 
-std::vector<Problem> validate(const Parameters&, const DofInputs& inputs) {
-  std::vector<Problem> problems;
-  if (!inputs.color) problems.push_back({"", "the technique needs a colour image", "set DofInputs::color"});
-  if (!inputs.depth) problems.push_back({"", "the technique needs a depth image", "set DofInputs::depth"});
-  if (inputs.extent.width == 0 || inputs.extent.height == 0) {
-    problems.push_back({"", "the picture has no pixels", "set DofInputs::extent"});
-  }
-  return problems;
-}
-
 DofOutputs declare(Graph& graph, const DofInputs& inputs, const Parameters& parameters) {
   DofOutputs outputs;
   outputs.color = inputs.color;
@@ -172,15 +162,14 @@ DofOutputs declare(Graph& graph, const DofInputs& inputs, const Parameters& para
   return outputs;
 }
 
-uint32_t frameCount(const Parameters&, const DofInputs&) {
-  return 1;
-}
-
 Technique technique() {
-  return makeTechnique<fields, validate, declare, frameCount>(
-      {"two_pass_filter", "Two-pass filter",
-       "Zhou, Chen, Pullen 2007, Accurate Depth of Field Simulation in Real Time"},
-      TechniqueInput::image);
+  return makeTechnique<Parameters>(
+      {.name = "two_pass_filter",
+       .title = "Two-pass filter",
+       .source = "Zhou, Chen, Pullen 2007, Accurate Depth of Field Simulation in Real Time",
+       .input = TechniqueInput::image,
+       .fields = fields(),
+       .declare = declare});
 }
 
 }  // namespace lensgraph::passes::two_pass_filter
