@@ -133,6 +133,17 @@ std::vector<ParameterInfo> describe(std::span<const Field<Parameters>> fields) {
   return infos;
 }
 
+/// The parameters that differ from the defaults, by name.
+template <class Parameters>
+ParameterSet toSet(const Parameters& parameters, std::span<const Field<Parameters>> fields) {
+  ParameterSet set;
+  for (const auto& field : fields) {
+    const ParameterValue value = field.get(parameters);
+    if (value != field.info.defaultValue) set.emplace(field.info.name, value);
+  }
+  return set;
+}
+
 /// Precondition: check() found no problem. Integers are accepted where numbers are asked for.
 template <class Parameters>
 Parameters fromSet(const ParameterSet& set, std::span<const Field<Parameters>> fields) {

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -18,47 +20,101 @@ enum class TechniqueInput : uint8_t {
   scene,  ///< Draws the scene through SceneDraw.
 };
 
+/// What is wrong with the inputs of any technique of this kind; empty when nothing is. Pure.
+std::vector<Problem> checkInputs(TechniqueInput input, const DofInputs& inputs);
+
+/// A technique with its parameters. Immutable; a host makes one when its settings change, and keeps it over frames.
+/// What it declares does not refer to it.
+class ConfiguredTechnique {
+ public:
+  virtual ~ConfiguredTechnique() = default;
+
+  /// Problems that need the inputs to be seen, those of checkInputs() included. Pure.
+  virtual std::vector<Problem> validate(const DofInputs& inputs) const = 0;
+  /// Declares the technique's nodes. Precondition: validate() found nothing.
+  virtual DofOutputs declare(rendergraph::Graph& graph, const DofInputs& inputs) const = 0;
+  /// Executions of the graph that make one finished picture, DofInputs::frame counting them; 1 for most.
+  virtual uint32_t frameCount(const DofInputs& inputs) const = 0;
+};
+
+/// Settings with which a small picture takes little time and yet all parts of the technique are at work: for tests that
+/// hold every technique to the same laws, and for previews.
+struct QuickSettings {
+  ParameterSet parameters = {};  ///< Those that differ from the defaults.
+  /// Points of a pixel that the technique looks at with them: without an aperture its picture is that of `pinhole` with
+  /// as many pixelSamples.
+  int pixelSamples = 1;
+};
+
 struct Technique {
   std::string_view name;    ///< As configuration names it, snake_case.
   std::string_view title;   ///< For people.
   std::string_view source;  ///< Paper.
   TechniqueInput input = TechniqueInput::image;
   std::vector<ParameterInfo> parameters;
+  QuickSettings quick;
 
-  /// Problems that need the inputs to be seen (after check() of the set by itself). Pure.
-  std::vector<Problem> (*validate)(const ParameterSet& parameters, const DofInputs& inputs) = nullptr;
-  /// Declares the technique's nodes. Precondition: check() and validate() found nothing.
-  DofOutputs (*declare)(rendergraph::Graph& graph, const DofInputs& inputs, const ParameterSet& parameters) = nullptr;
-  /// Executions of the graph that make one finished picture, DofInputs::frame counting them; 1 for most.
-  uint32_t (*frameCount)(const ParameterSet& parameters, const DofInputs& inputs) = nullptr;
+  /// The technique with these parameters; absent ones take their defaults. Precondition: check() of the set against
+  /// `parameters` found nothing. The result may outlive the Technique.
+  std::function<std::unique_ptr<ConfiguredTechnique>(const ParameterSet& set)> configure;
+};
+
+/// A technique's own functions on its own Parameters, and what users are told of it.
+template <class Parameters>
+struct TechniqueDescription {
+  std::string_view name, title, source;
+  TechniqueInput input = TechniqueInput::image;
+  std::span<const Field<Parameters>> fields = {};  ///< Of static storage duration.
+  DofOutputs (*declare)(rendergraph::Graph& graph, const DofInputs& inputs, const Parameters& parameters) = nullptr;
+  /// Problems beyond those of checkInputs() and of single parameters; null: none.
+  std::vector<Problem> (*validate)(const Parameters& parameters, const DofInputs& inputs) = nullptr;
+  /// Null: 1.
+  uint32_t (*frameCount)(const Parameters& parameters, const DofInputs& inputs) = nullptr;
+  /// See QuickSettings.
+  Parameters quick = {};
+  int quickPixelSamples = 1;
 };
 
 namespace detail {
-template <class Parameters>
-Parameters parametersOf(std::span<const Field<Parameters>>);
-}  // namespace detail
 
-/// What a user is told of a technique.
-struct TechniqueTitle {
-  std::string_view name, title, source;
+template <class Parameters>
+class TypedTechnique final : public ConfiguredTechnique {
+ public:
+  TypedTechnique(const TechniqueDescription<Parameters>& description, Parameters parameters)
+      : description_(description), parameters_(std::move(parameters)) {}
+
+  std::vector<Problem> validate(const DofInputs& inputs) const override {
+    auto problems = checkInputs(description_.input, inputs);
+    if (problems.empty() && description_.validate != nullptr) problems = description_.validate(parameters_, inputs);
+    return problems;
+  }
+  DofOutputs declare(rendergraph::Graph& graph, const DofInputs& inputs) const override {
+    return description_.declare(graph, inputs, parameters_);
+  }
+  uint32_t frameCount(const DofInputs& inputs) const override {
+    return description_.frameCount == nullptr ? 1 : description_.frameCount(parameters_, inputs);
+  }
+
+ private:
+  TechniqueDescription<Parameters> description_;
+  Parameters parameters_;
 };
 
-/// `fields`: () → span<const Field<Parameters>>; `validate`: (Parameters, DofInputs) → problems;
-/// `declare`: (Graph, DofInputs, Parameters) → DofOutputs; `frameCount`: (Parameters, DofInputs) → executions.
-template <auto fields, auto validate, auto declare, auto frameCount>
-Technique makeTechnique(const TechniqueTitle& title, TechniqueInput input) {
-  using Parameters = decltype(detail::parametersOf(fields()));
-  return {.name = title.name,
-          .title = title.title,
-          .source = title.source,
-          .input = input,
-          .parameters = describe<Parameters>(fields()),
-          .validate = [](const ParameterSet& set,
-                         const DofInputs& inputs) { return validate(fromSet<Parameters>(set, fields()), inputs); },
-          .declare = [](rendergraph::Graph& graph, const DofInputs& inputs,
-                        const ParameterSet& set) { return declare(graph, inputs, fromSet<Parameters>(set, fields())); },
-          .frameCount = [](const ParameterSet& set, const DofInputs& inputs) -> uint32_t {
-            return frameCount(fromSet<Parameters>(set, fields()), inputs);
+}  // namespace detail
+
+/// The registry's entry of a technique.
+template <class Parameters>
+Technique makeTechnique(const TechniqueDescription<Parameters>& description) {
+  return {.name = description.name,
+          .title = description.title,
+          .source = description.source,
+          .input = description.input,
+          .parameters = describe<Parameters>(description.fields),
+          .quick = {.parameters = toSet<Parameters>(description.quick, description.fields),
+                    .pixelSamples = description.quickPixelSamples},
+          .configure = [description](const ParameterSet& set) -> std::unique_ptr<ConfiguredTechnique> {
+            return std::make_unique<detail::TypedTechnique<Parameters>>(description,
+                                                                        fromSet<Parameters>(set, description.fields));
           }};
 }
 

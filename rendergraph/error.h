@@ -24,6 +24,7 @@ enum class Misuse {
   overLimit,         ///< Larger than the device allows, or of size zero.
   importState,       ///< An imported or exported resource without the state that it needs.
   subresourceRange,  ///< Mips or layers outside the image.
+  unfinishedPass,    ///< A ComputePass whose chain of calls has no groups() or indirect() at its end.
   unfinishedFrame,   ///< Asked for what a frame has left before it was waited for.
   outOfMemory,       ///< Device or host memory: something smaller may succeed.
   deviceLost,        ///< Nothing succeeds until device, backend and executor are made anew.

@@ -82,6 +82,7 @@ class Pass {
   void record(Recording recording);
 
  private:
+  friend class ComputePass;  // compute_pass.h
   friend class Graph;
   using Recorder = void (*)(void* recording, PassContext& context);
   using Destroyer = void (*)(void* recording);

@@ -51,6 +51,9 @@ struct SamplerDesc {
   bool operator==(const SamplerDesc&) const = default;
 };
 
+/// One texel, as it is.
+inline constexpr SamplerDesc kNearest{.filter = VK_FILTER_NEAREST};
+
 /// One resource bound to a call. Make it with sampled(), storage(), uniform().
 struct Binding {
   enum class Kind : uint8_t { sampledImage, storageImage, storageBuffer, uniformBuffer };

@@ -42,10 +42,6 @@ std::span<const Field<Parameters>> fields() {
   return table;
 }
 
-std::vector<Problem> validate(const Parameters&, const DofInputs& inputs) {
-  return checkSceneInputs(inputs);
-}
-
 uint32_t frameCount(const Parameters& parameters, const DofInputs& inputs) {
   if (inputs.lens.cocScale == 0.0f) return pinhole::frameCount(withoutLens(parameters), inputs);
   return passes::frameCount(meanOf(parameters, inputs.aperture));
@@ -59,10 +55,16 @@ DofOutputs declare(rendergraph::Graph& graph, const DofInputs& inputs, const Par
 }
 
 Technique technique() {
-  return makeTechnique<fields, validate, declare, frameCount>(
-      {"accumulation", "Accumulation (reference)",
-       "Haeberli & Akeley 1990, The accumulation buffer; Cook 1984, Distributed ray tracing"},
-      TechniqueInput::scene);
+  return makeTechnique<Parameters>(
+      {.name = "accumulation",
+       .title = "Accumulation (reference)",
+       .source = "Haeberli & Akeley 1990, The accumulation buffer; Cook 1984, Distributed ray tracing",
+       .input = TechniqueInput::scene,
+       .fields = fields(),
+       .declare = declare,
+       .frameCount = frameCount,
+       .quick = {.lensSamples = 16},
+       .quickPixelSamples = 16});
 }
 
 }  // namespace lensgraph::passes::accumulation

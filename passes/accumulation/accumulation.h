@@ -23,8 +23,6 @@ struct Parameters {
 };
 
 std::span<const Field<Parameters>> fields();
-/// What is wrong with inputs; empty when nothing is.
-std::vector<Problem> validate(const Parameters& parameters, const DofInputs& inputs);
 
 /// Executions of the graph that make the finished picture.
 uint32_t frameCount(const Parameters& parameters, const DofInputs& inputs);

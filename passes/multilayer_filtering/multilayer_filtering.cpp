@@ -112,14 +112,6 @@ std::span<const Field<Parameters>> fields() {
   return table;
 }
 
-std::vector<Problem> validate(const Parameters&, const DofInputs& inputs) {
-  return checkSceneInputs(inputs);
-}
-
-uint32_t frameCount(const Parameters&, const DofInputs&) {
-  return 1;
-}
-
 DofOutputs declare(rendergraph::Graph& graph, const DofInputs& inputs, const Parameters& parameters) {
   if (inputs.lens.cocScale == 0.0f) {
     return pinhole::declare(graph, inputs,
@@ -136,10 +128,16 @@ DofOutputs declare(rendergraph::Graph& graph, const DofInputs& inputs, const Par
 }
 
 Technique technique() {
-  return makeTechnique<fields, validate, declare, frameCount>(
-      {"multilayer_filtering", "Multi-layer filtering",
-       "Selgrad, Reintges, Penk, Wagner, Stamminger 2015, Real-time Depth of Field using Multi-Layer Filtering"},
-      TechniqueInput::scene);
+  return makeTechnique<Parameters>(
+      {.name = "multilayer_filtering",
+       .title = "Multi-layer filtering",
+       .source =
+           "Selgrad, Reintges, Penk, Wagner, Stamminger 2015, Real-time Depth of Field using Multi-Layer Filtering",
+       .input = TechniqueInput::scene,
+       .fields = fields(),
+       .declare = declare,
+       .quick = {.antialiasing = Antialiasing::points2x2},
+       .quickPixelSamples = 4});
 }
 
 }  // namespace lensgraph::passes::multilayer_filtering

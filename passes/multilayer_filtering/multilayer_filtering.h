@@ -13,11 +13,6 @@
 namespace lensgraph::passes::multilayer_filtering {
 
 std::span<const Field<Parameters>> fields();
-/// What is wrong with inputs; empty when nothing is.
-std::vector<Problem> validate(const Parameters& parameters, const DofInputs& inputs);
-
-/// Always 1.
-uint32_t frameCount(const Parameters& parameters, const DofInputs& inputs);
 
 /// Aperture 0 gives the pinhole picture, bit for bit.
 /// Precondition: inputs.scene is set and outlives the recording.

@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <span>
 #include <string>
 
 #include "passes/lens/lens_view.h"
 #include "passes/nodes/prefix_sum.h"
 #include "passes/nodes/scene_view.h"
+#include "rendergraph/compute_pass.h"
 #include "shaders/shared/emit.h"
 #include "shaders/shared/multilayer_filtering.h"
 #include "spirv/multilayer_filtering/accumulate_comp.h"
@@ -25,6 +25,7 @@ namespace {
 using rendergraph::Buffer;
 using rendergraph::ComputeProgram;
 using rendergraph::Graph;
+using rendergraph::groupsFor;
 using rendergraph::Image;
 using rendergraph::PassContext;
 using rendergraph::PassKind;
@@ -67,11 +68,6 @@ shared::ViewConstants listView(const FramePlan& plan) {
 
 VkExtent2D extentOf(const shared::FilterLevel& level) {
   return {static_cast<uint32_t>(level.size.x), static_cast<uint32_t>(level.size.y)};
-}
-
-/// Where everything is opaque nothing reads coverages, and another buffer is bound in their place.
-Buffer coveragesOr(const FragmentLists& lists) {
-  return lists.coverages ? lists.coverages : lists.vergences;
 }
 
 }  // namespace
@@ -157,23 +153,17 @@ FragmentLists declareUpload(Graph& graph, const FramePlan& plan) {
 }
 
 void declareSort(Graph& graph, const FramePlan& plan, LinkedLists& linked, Buffer& counts, Buffer& statistics) {
-  auto pass = graph.addPass(named("sort"), PassKind::compute);
-  linked.heads = pass.modify(linked.heads, Usage::storage);
-  linked.nodes = pass.modify(linked.nodes, Usage::storage);
-  counts = pass.write(counts, Usage::storage);
-  statistics = pass.modify(statistics, Usage::storage);
   const auto length = static_cast<uint32_t>(plan.parameters.listLength);
   const bool outer = plan.parameters.faces == Faces::outer;
   // A solid gives two fragments, of which one stays.
-  const std::array<uint32_t, 3> specialization = {length, outer ? 2 * length : length, outer ? 1u : 0u};
-  pass.record([linked, counts, statistics, specialization, extent = plan.listExtent()](PassContext& context) {
-    const std::array bindings = {rendergraph::storage(linked.heads), rendergraph::storage(linked.nodes),
-                                 rendergraph::storage(counts), rendergraph::storage(statistics)};
-    context.dispatch({.program = kSort,
-                      .bindings = bindings,
-                      .specialization = specialization,
-                      .groups = rendergraph::groupsFor(extent, shared::kMultilayerTile)});
-  });
+  const uint32_t heap = outer ? 2 * length : length;
+  compute(graph, named("sort"), kSort)
+      .modify(linked.heads)
+      .modify(linked.nodes)
+      .write(counts)
+      .modify(statistics)
+      .specialize({length, heap, outer})
+      .groups(groupsFor(plan.listExtent(), shared::kMultilayerTile));
 }
 
 }  // namespace
@@ -183,74 +173,44 @@ FragmentLists declareCompact(Graph& graph, const FramePlan& plan, LinkedLists& l
   declareSort(graph, plan, linked, lists.lists, statistics);
   declarePrefixSum(graph, named("scan0"), lists.lists, {.count = plan.reservedNodes()});
 
-  auto pass = graph.addPass(named("compact"), PassKind::compute);
-  pass.read(linked.heads, Usage::storage);
-  pass.read(linked.nodes, Usage::storage);
-  pass.read(linked.allocator, Usage::storage);
-  pass.read(lists.lists, Usage::storage);
-  lists.vergences = pass.write(lists.vergences, Usage::storage);
-  lists.colors = pass.write(lists.colors, Usage::storage);
-  if (plan.hasCoverage()) lists.coverages = pass.write(lists.coverages, Usage::storage);
-  statistics = pass.modify(statistics, Usage::storage);
   const shared::CompactPush push{.size = signedExtent(plan.listExtent()),
                                  .room = plan.listRoom(),
                                  .reservedNodes = plan.reservedNodes(),
                                  .lens = plan.inputs.lens};
-  const std::array<uint32_t, 1> specialization = {plan.hasCoverage() ? 1u : 0u};
-  pass.record([linked, lists, statistics, push, specialization, extent = plan.listExtent()](PassContext& context) {
-    const std::array bindings = {rendergraph::storage(linked.heads),       rendergraph::storage(linked.nodes),
-                                 rendergraph::storage(linked.allocator),   rendergraph::storage(lists.lists),
-                                 rendergraph::storage(lists.vergences),    rendergraph::storage(lists.colors),
-                                 rendergraph::storage(coveragesOr(lists)), rendergraph::storage(statistics)};
-    context.dispatch({.program = kCompact,
-                      .bindings = bindings,
-                      .pushConstants = rendergraph::bytesOf(push),
-                      .specialization = specialization,
-                      .groups = rendergraph::groupsFor(extent, shared::kMultilayerTile)});
-  });
+  auto compact = compute(graph, named("compact"), kCompact);
+  compact.read(linked.heads).read(linked.nodes).read(linked.allocator);
+  compact.read(lists.lists).write(lists.vergences).write(lists.colors);
+  plan.hasCoverage() ? compact.write(lists.coverages) : compact.placeholder();
+  compact.modify(statistics)
+      .push(push)
+      .specialize({plan.hasCoverage()})
+      .groups(groupsFor(plan.listExtent(), shared::kMultilayerTile));
   return lists;
 }
 
 void declareFilter(Graph& graph, const FramePlan& plan, uint32_t level, FragmentLists& lists) {
   const auto& made = plan.levels.levels[level];
   const std::string number = std::to_string(level);
-  const auto groups = rendergraph::groupsFor(extentOf(made), shared::kMultilayerTile);
+  const auto groups = groupsFor(extentOf(made), shared::kMultilayerTile);
   const shared::FilterPush push{.level = level,
                                 .room = plan.listRoom(),
                                 .cocScale = plan.inputs.lens.cocScale,
                                 .focusVergence = plan.inputs.lens.focusVergence,
                                 .epsilon = static_cast<float>(plan.parameters.epsilon)};
-  auto count = graph.addPass(named("count") + number, PassKind::compute);
-  count.read(lists.levels, Usage::storage);
-  count.read(lists.vergences, Usage::storage);
-  lists.lists = count.modify(lists.lists, Usage::storage);
-  count.record([lists, push, groups](PassContext& context) {
-    const std::array bindings = {rendergraph::storage(lists.levels), rendergraph::storage(lists.lists),
-                                 rendergraph::storage(lists.vergences)};
-    context.dispatch(
-        {.program = kCount, .bindings = bindings, .pushConstants = rendergraph::bytesOf(push), .groups = groups});
-  });
+  compute(graph, named("count") + number, kCount)
+      .read(lists.levels)
+      .modify(lists.lists)
+      .read(lists.vergences)
+      .push(push)
+      .groups(groups);
   const auto cells = static_cast<uint32_t>(made.size.x * made.size.y);
   declarePrefixSum(graph, named("scan") + number, lists.lists,
                    {.first = made.firstList, .count = cells, .continues = true});
 
-  auto merge = graph.addPass(named(made.tapDistance == 0 ? "mip" : "stack") + number, PassKind::compute);
-  merge.read(lists.levels, Usage::storage);
-  merge.read(lists.lists, Usage::storage);
-  lists.vergences = merge.modify(lists.vergences, Usage::storage);
-  lists.colors = merge.modify(lists.colors, Usage::storage);
-  if (plan.hasCoverage()) lists.coverages = merge.modify(lists.coverages, Usage::storage);
-  const std::array<uint32_t, 1> specialization = {plan.hasCoverage() ? 1u : 0u};
-  merge.record([lists, push, groups, specialization](PassContext& context) {
-    const std::array bindings = {rendergraph::storage(lists.levels), rendergraph::storage(lists.lists),
-                                 rendergraph::storage(lists.vergences), rendergraph::storage(lists.colors),
-                                 rendergraph::storage(coveragesOr(lists))};
-    context.dispatch({.program = kMerge,
-                      .bindings = bindings,
-                      .pushConstants = rendergraph::bytesOf(push),
-                      .specialization = specialization,
-                      .groups = groups});
-  });
+  auto merge = compute(graph, named(made.tapDistance == 0 ? "mip" : "stack") + number, kMerge);
+  merge.read(lists.levels).read(lists.lists).modify(lists.vergences).modify(lists.colors);
+  plan.hasCoverage() ? merge.modify(lists.coverages) : merge.placeholder();
+  merge.push(push).specialize({plan.hasCoverage()}).groups(groups);
 }
 
 namespace {
@@ -258,11 +218,6 @@ namespace {
 /// Which looks each tile of the picture shows.
 Buffer declareShown(Graph& graph, const FramePlan& plan, const FragmentLists& lists, rendergraph::Groups tiles) {
   Buffer shown = graph.createBuffer(named("shown_looks"), {.size = tiles.x * tiles.y * sizeof(uint32_t)});
-  auto pass = graph.addPass(named("shown"), PassKind::compute);
-  for (const Buffer& buffer : {lists.levels, lists.looks, lists.lists, lists.vergences}) {
-    pass.read(buffer, Usage::storage);
-  }
-  shown = pass.write(shown, Usage::storage);
   const VkExtent2D extent = {tiles.x, tiles.y};
   const shared::ShownPush push{.tiles = signedExtent(extent),
                                .lookCount = static_cast<uint32_t>(plan.levels.looks.size()),
@@ -270,15 +225,14 @@ Buffer declareShown(Graph& graph, const FramePlan& plan, const FragmentLists& li
                                .cocScale = plan.inputs.lens.cocScale,
                                .focusVergence = plan.inputs.lens.focusVergence,
                                .mostSquare = plan.mostSquare()};
-  pass.record([lists, shown, push, extent](PassContext& context) {
-    const std::array bindings = {rendergraph::storage(lists.levels), rendergraph::storage(lists.looks),
-                                 rendergraph::storage(lists.lists), rendergraph::storage(lists.vergences),
-                                 rendergraph::storage(shown)};
-    context.dispatch({.program = kShown,
-                      .bindings = bindings,
-                      .pushConstants = rendergraph::bytesOf(push),
-                      .groups = rendergraph::groupsFor(extent, shared::kMultilayerTile)});
-  });
+  compute(graph, named("shown"), kShown)
+      .read(lists.levels)
+      .read(lists.looks)
+      .read(lists.lists)
+      .read(lists.vergences)
+      .write(shown)
+      .push(push)
+      .groups(groupsFor(extent, shared::kMultilayerTile));
   return shown;
 }
 
@@ -289,15 +243,8 @@ Image declareAccumulate(Graph& graph, const FramePlan& plan, const FragmentLists
   const auto& parameters = plan.parameters;
   Image picture = graph.createImage(
       named("color"), {.format = kViewColorFormat, .width = inputs.extent.width, .height = inputs.extent.height});
-  const auto tiles = rendergraph::groupsFor(inputs.extent, shared::kMultilayerTile);
+  const auto tiles = groupsFor(inputs.extent, shared::kMultilayerTile);
   const Buffer shown = declareShown(graph, plan, lists, tiles);
-  auto pass = graph.addPass(named("accumulate"), PassKind::compute);
-  for (const Buffer& buffer : {lists.levels, lists.looks, lists.lists, lists.vergences, lists.colors, shown}) {
-    pass.read(buffer, Usage::storage);
-  }
-  if (plan.hasCoverage()) pass.read(lists.coverages, Usage::storage);
-  picture = pass.write(picture, Usage::storage);
-  statistics = pass.modify(statistics, Usage::storage);
   const shared::MultilayerAccumulatePush push{.size = signedExtent(inputs.extent),
                                               .tileColumns = tiles.x,
                                               .lastList = plan.levels.listCount - 1,
@@ -314,22 +261,16 @@ Image declareAccumulate(Graph& graph, const FramePlan& plan, const FragmentLists
   // The paper's borders are where a level begins to show; ours, half of the way to where it shows alone.
   const float stepAt = parameters.levelMatch == LevelMatch::diameter ? 0.0f : 0.5f;
   const bool isRound = std::ranges::any_of(plan.levels.looks, [](const auto& look) { return look.ring > 0.0f; });
-  const std::array<uint32_t, 6> specialization = {
-      plan.hasCoverage() ? 1u : 0u,    parameters.interpolateLevels ? 1u : 0u,
-      parameters.bilinear ? 1u : 0u,   parameters.blend == Blend::additive ? 1u : 0u,
-      std::bit_cast<uint32_t>(stepAt), isRound ? 1u : 0u};
-  pass.record([lists, shown, picture, statistics, push, specialization, tiles](PassContext& context) {
-    const std::array bindings = {rendergraph::storage(lists.levels), rendergraph::storage(lists.looks),
-                                 rendergraph::storage(lists.lists),  rendergraph::storage(lists.vergences),
-                                 rendergraph::storage(lists.colors), rendergraph::storage(coveragesOr(lists)),
-                                 rendergraph::storage(shown),        rendergraph::storage(picture),
-                                 rendergraph::storage(statistics)};
-    context.dispatch({.program = kAccumulate,
-                      .bindings = bindings,
-                      .pushConstants = rendergraph::bytesOf(push),
-                      .specialization = specialization,
-                      .groups = tiles});
-  });
+  auto accumulate = compute(graph, named("accumulate"), kAccumulate);
+  accumulate.read(lists.levels).read(lists.looks).read(lists.lists).read(lists.vergences).read(lists.colors);
+  plan.hasCoverage() ? accumulate.read(lists.coverages) : accumulate.placeholder();
+  accumulate.read(shown)
+      .write(picture)
+      .modify(statistics)
+      .push(push)
+      .specialize({plan.hasCoverage(), parameters.interpolateLevels, parameters.bilinear,
+                   parameters.blend == Blend::additive, stepAt, isRound})
+      .groups(tiles);
   return picture;
 }
 

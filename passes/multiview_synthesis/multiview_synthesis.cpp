@@ -120,8 +120,8 @@ std::span<const Field<Parameters>> fields() {
   return table;
 }
 
-std::vector<Problem> validate(const Parameters& parameters, const DofInputs& inputs) {
-  auto problems = checkSceneInputs(inputs);
+std::vector<Problem> validate(const Parameters& parameters, const DofInputs&) {
+  std::vector<Problem> problems;
   if (parameters.views > parameters.lensSamples) {
     problems.push_back({"views", "there are more views than rays", "set views to lensSamples or less"});
   }
@@ -133,10 +133,6 @@ std::vector<Problem> validate(const Parameters& parameters, const DofInputs& inp
     problems.push_back({"viewDependent", "it allows 32 layers at most", "set layers to 32 or less"});
   }
   return problems;
-}
-
-uint32_t frameCount(const Parameters&, const DofInputs&) {
-  return 1;
 }
 
 DofOutputs declare(rendergraph::Graph& graph, const DofInputs& inputs, const Parameters& parameters) {
@@ -175,10 +171,16 @@ DofOutputs declare(rendergraph::Graph& graph, const DofInputs& inputs, const Par
 }
 
 Technique technique() {
-  return makeTechnique<fields, validate, declare, frameCount>(
-      {"multiview_synthesis", "Multiview synthesis",
-       "Lee, Eisemann, Seidel 2009, Depth-of-Field Rendering with Multiview Synthesis"},
-      TechniqueInput::scene);
+  return makeTechnique<Parameters>(
+      {.name = "multiview_synthesis",
+       .title = "Multiview synthesis",
+       .source = "Lee, Eisemann, Seidel 2009, Depth-of-Field Rendering with Multiview Synthesis",
+       .input = TechniqueInput::scene,
+       .fields = fields(),
+       .declare = declare,
+       .validate = validate,
+       .quick = {.views = 4},
+       .quickPixelSamples = 4});
 }
 
 }  // namespace lensgraph::passes::multiview_synthesis

@@ -12,11 +12,8 @@
 namespace lensgraph::passes::multiview_synthesis {
 
 std::span<const Field<Parameters>> fields();
-/// What is wrong with inputs; empty when nothing is.
+/// What is wrong with parameters that are right by themselves; empty when nothing is.
 std::vector<Problem> validate(const Parameters& parameters, const DofInputs& inputs);
-
-/// Always 1.
-uint32_t frameCount(const Parameters& parameters, const DofInputs& inputs);
 
 /// Aperture 0 gives the pinhole picture of the same pixel samples, bit for bit.
 /// Precondition: inputs.scene is set and outlives the recording.

@@ -8,6 +8,7 @@
 
 #include "passes/lens/lens_view.h"
 #include "passes/nodes/scene_view.h"
+#include "rendergraph/compute_pass.h"
 #include "shaders/shared/multiview_synthesis.h"
 #include "spirv/multiview_synthesis/dilate_comp.h"
 #include "spirv/multiview_synthesis/mip_comp.h"
@@ -19,10 +20,10 @@
 namespace lensgraph::passes::multiview_synthesis {
 namespace {
 
-using rendergraph::Binding;
 using rendergraph::Buffer;
 using rendergraph::ComputeProgram;
 using rendergraph::Graph;
+using rendergraph::groupsFor;
 using rendergraph::Image;
 using rendergraph::PassContext;
 using rendergraph::PassKind;
@@ -84,35 +85,22 @@ void declareDraw(Graph& graph, const ViewPlan& plan, const Tables& tables, share
 void declareRedistribute(Graph& graph, const ViewPlan& plan, const Tables& tables, Image depth, LayerImages& images,
                          Buffer& statistics) {
   const bool moves = !plan.parameters.splitTriangles || plan.layerCount() > kMostSplitLayers;
-  auto pass = graph.addPass(plan.prefix + ".redistribute", PassKind::compute);
-  pass.sample(depth);
-  pass.read(tables.layers, Usage::storage);
-  images.color = pass.modify(images.color, Usage::storage, rendergraph::mip(0));
-  images.height = pass.write(images.height, Usage::storage);
-  images.occupied = pass.write(images.occupied, Usage::storage);
-  statistics = pass.modify(statistics, Usage::storage);
   const shared::RedistributePush push{.size = signedExtent(plan.size),
                                       .table = plan.number,
                                       .sliceCount = plan.sliceCount(),
                                       .layerCount = plan.layerCount(),
                                       .vergenceScale = plan.inputs.lens.vergenceScale,
                                       .vergenceOffset = plan.inputs.lens.vergenceOffset};
-  pass.record(
-      [depth, table = tables.layers, images, statistics, push, moves, extent = plan.size](PassContext& context) {
-        const rendergraph::SamplerDesc nearest{.filter = VK_FILTER_NEAREST};
-        const std::array bindings = {rendergraph::sampled(depth, nearest, {}, kArray),
-                                     rendergraph::storage(table),
-                                     rendergraph::storage(images.color, rendergraph::mip(0), kArray),
-                                     rendergraph::storage(images.height, rendergraph::mip(0), kArray),
-                                     rendergraph::storage(images.occupied),
-                                     rendergraph::storage(statistics)};
-        const std::array<uint32_t, 1> specialization = {moves ? 1u : 0u};
-        context.dispatch({.program = kRedistribute,
-                          .bindings = bindings,
-                          .pushConstants = rendergraph::bytesOf(push),
-                          .specialization = specialization,
-                          .groups = rendergraph::groupsFor(extent, shared::kMultiviewTile)});
-      });
+  compute(graph, plan.prefix + ".redistribute", kRedistribute)
+      .sample(depth, rendergraph::kNearest, {}, kArray)
+      .read(tables.layers)
+      .modify(images.color, rendergraph::mip(0), kArray)
+      .write(images.height, {}, kArray)
+      .write(images.occupied)
+      .modify(statistics)
+      .push(push)
+      .specialize({moves})
+      .groups(groupsFor(plan.size, shared::kMultiviewTile));
 }
 
 /// Largest |c| that any layer's content has, px.
@@ -196,23 +184,16 @@ LayerImages declareDecompose(Graph& graph, const ViewPlan& plan, const Tables& t
 
 Buffer declareCulling(Graph& graph, const ViewPlan& plan, const Tables& tables, LayerImages& images) {
   const auto cells = plan.cells();
-  const auto groups = rendergraph::groupsFor(cells, shared::kMultiviewTile);
+  const auto groups = groupsFor(cells, shared::kMultiviewTile);
   const uint32_t highest = highestLevel(plan, rayReach(plan));
   for (uint32_t level = 1; level <= highest; ++level) {
-    auto pass = graph.addPass(plan.prefix + ".n_buffer" + std::to_string(level), PassKind::compute);
-    images.occupied = pass.modify(images.occupied, Usage::storage);
     const shared::DilatePush push{.cells = signedExtent(cells), .level = level};
-    pass.record([occupied = images.occupied, push, groups](PassContext& context) {
-      const std::array bindings = {rendergraph::storage(occupied)};
-      context.dispatch(
-          {.program = kDilate, .bindings = bindings, .pushConstants = rendergraph::bytesOf(push), .groups = groups});
-    });
+    compute(graph, plan.prefix + ".n_buffer" + std::to_string(level), kDilate)
+        .modify(images.occupied)
+        .push(push)
+        .groups(groups);
   }
   Buffer visits = graph.createBuffer(plan.prefix + ".visits", {.size = maskBytes(plan, 1)});
-  auto pass = graph.addPass(plan.prefix + ".cull", PassKind::compute);
-  pass.read(images.occupied, Usage::storage);
-  pass.read(tables.layers, Usage::storage);
-  visits = pass.write(visits, Usage::storage);
   const shared::VisitPush push{.cells = signedExtent(cells),
                                .table = plan.number,
                                .layerCount = plan.layerCount(),
@@ -221,12 +202,12 @@ Buffer declareCulling(Graph& graph, const ViewPlan& plan, const Tables& tables, 
                                .focusVergence = plan.inputs.lens.focusVergence,
                                .rayReach = rayReach(plan),
                                .hasTransparency = plan.sliceCount() > plan.layerCount() ? 1u : 0u};
-  pass.record([occupied = images.occupied, table = tables.layers, visits, push, groups](PassContext& context) {
-    const std::array bindings = {rendergraph::storage(occupied), rendergraph::storage(table),
-                                 rendergraph::storage(visits)};
-    context.dispatch(
-        {.program = kVisit, .bindings = bindings, .pushConstants = rendergraph::bytesOf(push), .groups = groups});
-  });
+  compute(graph, plan.prefix + ".cull", kVisit)
+      .read(images.occupied)
+      .read(tables.layers)
+      .write(visits)
+      .push(push)
+      .groups(groups);
   return visits;
 }
 
@@ -236,10 +217,6 @@ void declareMipsOf(Graph& graph, const ViewPlan& plan, const Tables& tables, con
                    Image& image) {
   for (uint32_t level = 1; level < plan.mips; ++level) {
     const VkExtent2D extent = {plan.size.width >> level, plan.size.height >> level};
-    auto pass = graph.addPass(plan.prefix + name + std::to_string(level), PassKind::compute);
-    pass.read(image, Usage::storage, rendergraph::mip(level - 1));
-    pass.read(tables.layers, Usage::storage);
-    image = pass.write(image, Usage::storage, rendergraph::mip(level));
     const shared::MipPush push{.size = signedExtent(extent),
                                .level = level,
                                .table = plan.number,
@@ -247,15 +224,14 @@ void declareMipsOf(Graph& graph, const ViewPlan& plan, const Tables& tables, con
                                .cocScale = plan.inputs.lens.cocScale,
                                .focusVergence = plan.inputs.lens.focusVergence,
                                .coneDiameter = plan.coneDiameter};
-    auto groups = rendergraph::groupsFor(extent, shared::kMultiviewTile);
+    auto groups = groupsFor(extent, shared::kMultiviewTile);
     groups.z = slices;
-    pass.record([image, table = tables.layers, level, push, groups](PassContext& context) {
-      const std::array bindings = {rendergraph::storage(image, rendergraph::mip(level - 1), kArray),
-                                   rendergraph::storage(image, rendergraph::mip(level), kArray),
-                                   rendergraph::storage(table)};
-      context.dispatch(
-          {.program = kMip, .bindings = bindings, .pushConstants = rendergraph::bytesOf(push), .groups = groups});
-    });
+    compute(graph, plan.prefix + name + std::to_string(level), kMip)
+        .read(image, rendergraph::mip(level - 1), kArray)
+        .write(image, rendergraph::mip(level), kArray)
+        .read(tables.layers)
+        .push(push)
+        .groups(groups);
   }
 }
 
@@ -291,24 +267,13 @@ Image declareTrace(Graph& graph, const ViewPlan& plan, const Tables& tables, con
   const uint32_t total = plan.view.raysPerPixel;
   const auto& [lens, aperture] = std::pair(plan.inputs.lens, plan.inputs.aperture);
   const auto& background = plan.inputs.background;
+  const rendergraph::SamplerDesc bilinear{};  // Of the nearest level: half the price of trilinear, SSIM within 0.003.
+  const rendergraph::SamplerDesc around{.mipmap = VK_SAMPLER_MIPMAP_MODE_LINEAR,
+                                        .address = VK_SAMPLER_ADDRESS_MODE_REPEAT};
   for (uint32_t first = 0; first < total; first += most) {
     const bool starts = isFirst && first == 0;
     const bool ends = isLast && first + most >= total;
     const std::string part = total > most ? ".trace" + std::to_string(first / most) : ".trace";
-    auto pass = graph.addPass(plan.prefix + part, PassKind::compute);
-    pass.sample(images.color);
-    pass.read(images.height, Usage::storage);
-    pass.read(tables.layers, Usage::storage);
-    pass.read(tables.rays, Usage::storage);
-    if (visits) pass.read(visits, Usage::storage);
-    if (plan.shading) {
-      pass.sample(images.gloss);
-      pass.sample(images.facing);
-      pass.sample(plan.shading->environment);
-      pass.read(plan.shading->lights, Usage::storage);
-      pass.read(plan.shading->constants, Usage::uniform);
-    }
-    picture = starts ? pass.write(picture, Usage::storage) : pass.modify(picture, Usage::storage);
     const shared::TracePush push{.aperture = aperture,
                                  .size = signedExtent(plan.size),
                                  .border = plan.border,
@@ -328,37 +293,19 @@ Image declareTrace(Graph& graph, const ViewPlan& plan, const Tables& tables, con
                                  .coneDiameter = plan.coneDiameter,
                                  .noiseReach = noiseReach(static_cast<uint32_t>(plan.parameters.lensSamples)),
                                  .pixelsPerTangent = plan.inputs.projection.pixelsPerTangent};
-    const std::array<uint32_t, 7> specialization = {static_cast<uint32_t>(plan.parameters.jitter),
-                                                    static_cast<uint32_t>(plan.parameters.search),
-                                                    static_cast<uint32_t>(plan.parameters.iterations),
-                                                    plan.mips > 1 ? 1u : 0u,
-                                                    plan.sliceCount() > plan.layerCount() ? 1u : 0u,
-                                                    visits ? 1u : 0u,
-                                                    plan.raysMayLeave ? 1u : 0u};
-    pass.record([=, extent = plan.inputs.extent, shading = plan.shading](PassContext& context) {
-      const rendergraph::SamplerDesc
-          bilinear{};  // of the nearest level: half the price of trilinear, SSIM within 0.003
-      std::vector<Binding> bindings = {rendergraph::sampled(images.color, bilinear, {}, kArray),
-                                       rendergraph::storage(images.height, rendergraph::mip(0), kArray),
-                                       rendergraph::storage(tables.layers),
-                                       rendergraph::storage(tables.rays),
-                                       rendergraph::storage(visits ? visits : tables.rays),
-                                       rendergraph::storage(picture)};
-      if (shading) {
-        const rendergraph::SamplerDesc around{.mipmap = VK_SAMPLER_MIPMAP_MODE_LINEAR,
-                                              .address = VK_SAMPLER_ADDRESS_MODE_REPEAT};
-        bindings.push_back(rendergraph::sampled(images.gloss, bilinear, {}, kArray));
-        bindings.push_back(rendergraph::sampled(images.facing, bilinear, {}, kArray));
-        bindings.push_back(rendergraph::sampled(shading->environment, around));
-        bindings.push_back(rendergraph::storage(shading->lights));
-        bindings.push_back(rendergraph::uniform(shading->constants));
-      }
-      context.dispatch({.program = shading ? kTraceShaded : kTrace,
-                        .bindings = bindings,
-                        .pushConstants = rendergraph::bytesOf(push),
-                        .specialization = specialization,
-                        .groups = rendergraph::groupsFor(extent, shared::kMultiviewTile)});
-    });
+    auto trace = compute(graph, plan.prefix + part, plan.shading ? kTraceShaded : kTrace);
+    trace.sample(images.color, bilinear, {}, kArray).read(images.height, {}, kArray);
+    trace.read(tables.layers).read(tables.rays);
+    visits ? trace.read(visits) : trace.placeholder();
+    starts ? trace.write(picture) : trace.modify(picture);
+    if (plan.shading) {
+      trace.sample(images.gloss, bilinear, {}, kArray).sample(images.facing, bilinear, {}, kArray);
+      trace.sample(plan.shading->environment, around).read(plan.shading->lights).uniform(plan.shading->constants);
+    }
+    trace.push(push)
+        .specialize({plan.parameters.jitter, plan.parameters.search, plan.parameters.iterations, plan.mips > 1,
+                     plan.sliceCount() > plan.layerCount(), static_cast<bool>(visits), plan.raysMayLeave})
+        .groups(groupsFor(plan.inputs.extent, shared::kMultiviewTile));
   }
   return picture;
 }

@@ -1,9 +1,7 @@
 // One compute pass over the picture, in place.
 #include "passes/nodes/sanitize.h"
 
-#include <array>
-
-#include "rendergraph/program.h"
+#include "rendergraph/compute_pass.h"
 #include "shaders/shared/sanitize.h"
 #include "spirv/sanitize/sanitize_comp.h"
 
@@ -15,15 +13,11 @@ const rendergraph::ComputeProgram kSanitize{"sanitize", sanitize_sanitize_comp};
 
 void declareSanitize(rendergraph::Graph& graph, const std::string& prefix, rendergraph::Image& color,
                      rendergraph::Buffer& statistics) {
-  auto pass = graph.addPass(prefix + ".sanitize", rendergraph::PassKind::compute);
-  color = pass.modify(color, rendergraph::Usage::storage);
-  statistics = pass.modify(statistics, rendergraph::Usage::storage);
-  pass.record([color, statistics](rendergraph::PassContext& context) {
-    const std::array bindings = {rendergraph::storage(color), rendergraph::storage(statistics)};
-    context.dispatch({.program = kSanitize,
-                      .bindings = bindings,
-                      .groups = rendergraph::groupsFor(context.extent(color), shared::kSanitizeTile)});
-  });
+  const auto& picture = graph.desc(color);
+  compute(graph, prefix + ".sanitize", kSanitize)
+      .modify(color)
+      .modify(statistics)
+      .groups(rendergraph::groupsFor({picture.width, picture.height}, shared::kSanitizeTile));
 }
 
 }  // namespace lensgraph::passes

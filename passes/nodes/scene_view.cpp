@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "rendergraph/compute_pass.h"
 #include "shaders/shared/emit.h"
 #include "shaders/shared/transparency.h"
 #include "spirv/transparency/composite_comp.h"
@@ -12,7 +13,6 @@
 namespace lensgraph::passes {
 namespace {
 
-using rendergraph::Binding;
 using rendergraph::Buffer;
 using rendergraph::Graph;
 using rendergraph::Image;
@@ -67,34 +67,16 @@ Lists declareCollect(Graph& graph, const DofInputs& inputs, const std::string& p
 
 void declareComposite(Graph& graph, const DofInputs& inputs, const std::string& prefix, const Lists& lists,
                       SceneViewOutputs& out) {
-  auto pass = graph.addPass(prefix + ".composite", PassKind::compute);
-  pass.read(lists.heads, Usage::storage);
-  pass.read(lists.nodes, Usage::storage);
-  pass.read(lists.allocator, Usage::storage);
-  out.color = pass.modify(out.color, Usage::storage);
-  out.statistics = pass.modify(out.statistics, Usage::storage);
-  pass.record([color = out.color, statistics = out.statistics, lists, extent = inputs.extent](PassContext& context) {
-    const std::array bindings = {rendergraph::storage(color), rendergraph::storage(lists.heads),
-                                 rendergraph::storage(lists.nodes), rendergraph::storage(lists.allocator),
-                                 rendergraph::storage(statistics)};
-    context.dispatch({.program = kComposite,
-                      .bindings = bindings,
-                      .groups = rendergraph::groupsFor(extent, shared::kTransparencyTile)});
-  });
+  compute(graph, prefix + ".composite", kComposite)
+      .modify(out.color)
+      .read(lists.heads)
+      .read(lists.nodes)
+      .read(lists.allocator)
+      .modify(out.statistics)
+      .groups(rendergraph::groupsFor(inputs.extent, shared::kTransparencyTile));
 }
 
 }  // namespace
-
-std::vector<Problem> checkSceneInputs(const DofInputs& inputs) {
-  std::vector<Problem> problems;
-  if (inputs.scene == nullptr || !inputs.scene->record) {
-    problems.push_back({"", "the technique draws a scene, and there is none", "set DofInputs::scene"});
-  }
-  if (inputs.extent.width == 0 || inputs.extent.height == 0) {
-    problems.push_back({"", "the picture has no pixels", "set DofInputs::extent"});
-  }
-  return problems;
-}
 
 SceneViewOutputs declareSceneView(Graph& graph, const DofInputs& inputs, const std::string& prefix,
                                   const shared::ViewConstants& view, Buffer statistics) {

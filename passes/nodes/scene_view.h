@@ -3,10 +3,8 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "passes/dof_io.h"
-#include "passes/parameters.h"
 #include "shaders/shared/view.h"
 
 namespace lensgraph::passes {
@@ -20,9 +18,6 @@ struct SceneViewOutputs {
 /// Format of colour in every view: float, because the accumulation is a reference and because lavapipe reads it fastest.
 inline constexpr VkFormat kViewColorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
 inline constexpr VkFormat kViewDepthFormat = VK_FORMAT_D32_SFLOAT;
-
-/// What is wrong with the inputs of a technique that draws the scene; empty when nothing is.
-std::vector<Problem> checkSceneInputs(const DofInputs& inputs);
 
 /// Declares `prefix`.opaque and, when the scene has transparency, `prefix`.clear_lists, .transparent and .composite.
 /// Precondition: inputs.scene is set and outlives the recording.

@@ -2,11 +2,11 @@
 #include "passes/nodes/view_mean.h"
 
 #include <algorithm>
-#include <array>
 
 #include "passes/lens/lens_view.h"
 #include "passes/nodes/scene_view.h"
 #include "passes/nodes/statistics.h"
+#include "rendergraph/compute_pass.h"
 #include "shaders/shared/accumulation.h"
 #include "spirv/accumulation/accumulate_comp.h"
 #include "spirv/accumulation/resolve_comp.h"
@@ -17,9 +17,6 @@ namespace {
 using rendergraph::Buffer;
 using rendergraph::Graph;
 using rendergraph::Image;
-using rendergraph::PassContext;
-using rendergraph::PassKind;
-using rendergraph::Usage;
 
 const rendergraph::ComputeProgram kAccumulate{"accumulation.accumulate", accumulation_accumulate_comp};
 const rendergraph::ComputeProgram kResolve{"accumulation.resolve", accumulation_resolve_comp};
@@ -31,24 +28,18 @@ struct Running {
 
 void declareAccumulate(Graph& graph, const DofInputs& inputs, const std::string& prefix, Image viewColor,
                        const LensSample& sample, uint32_t viewIndex, Running& running, Buffer& statistics) {
-  auto pass = graph.addPass(prefix + ".accumulate", PassKind::compute);
-  pass.read(viewColor, Usage::storage);
-  running.mean = pass.modify(running.mean, Usage::storage);
-  running.spread = pass.modify(running.spread, Usage::storage);
-  statistics = pass.modify(statistics, Usage::storage);
   const shared::AccumulatePush push{.aperture = inputs.aperture,
                                     .lensSample = sample.v,
                                     .weight = sample.weight,
                                     .viewIndex = viewIndex,
                                     .extent = {inputs.extent.width, inputs.extent.height}};
-  pass.record([viewColor, running, statistics, push, extent = inputs.extent](PassContext& context) {
-    const std::array bindings = {rendergraph::storage(viewColor), rendergraph::storage(running.mean),
-                                 rendergraph::storage(running.spread), rendergraph::storage(statistics)};
-    context.dispatch({.program = kAccumulate,
-                      .bindings = bindings,
-                      .pushConstants = rendergraph::bytesOf(push),
-                      .groups = rendergraph::groupsFor(extent, shared::kAccumulationTile)});
-  });
+  compute(graph, prefix + ".accumulate", kAccumulate)
+      .read(viewColor)
+      .modify(running.mean)
+      .modify(running.spread)
+      .modify(statistics)
+      .push(push)
+      .groups(rendergraph::groupsFor(inputs.extent, shared::kAccumulationTile));
 }
 
 DofOutputs declareResolve(Graph& graph, const DofInputs& inputs, const std::string& prefix, const Running& running,
@@ -58,21 +49,14 @@ DofOutputs declareResolve(Graph& graph, const DofInputs& inputs, const std::stri
   out.color = graph.createImage(prefix + ".color", {.format = kViewColorFormat, .width = width, .height = height});
   out.standardError =
       graph.createImage(prefix + ".standard_error", {.format = VK_FORMAT_R32_SFLOAT, .width = width, .height = height});
-  auto pass = graph.addPass(prefix + ".resolve", PassKind::compute);
-  pass.read(running.mean, Usage::storage);
-  pass.read(running.spread, Usage::storage);
-  out.color = pass.write(out.color, Usage::storage);
-  out.standardError = pass.write(out.standardError, Usage::storage);
   const shared::ResolvePush push{.extent = {width, height}, .viewCount = views};
-  pass.record(
-      [running, color = out.color, error = out.standardError, push, extent = inputs.extent](PassContext& context) {
-        const std::array bindings = {rendergraph::storage(running.mean), rendergraph::storage(running.spread),
-                                     rendergraph::storage(color), rendergraph::storage(error)};
-        context.dispatch({.program = kResolve,
-                          .bindings = bindings,
-                          .pushConstants = rendergraph::bytesOf(push),
-                          .groups = rendergraph::groupsFor(extent, shared::kAccumulationTile)});
-      });
+  compute(graph, prefix + ".resolve", kResolve)
+      .read(running.mean)
+      .read(running.spread)
+      .write(out.color)
+      .write(out.standardError)
+      .push(push)
+      .groups(rendergraph::groupsFor(inputs.extent, shared::kAccumulationTile));
   return out;
 }
 

@@ -36,10 +36,6 @@ std::span<const Field<Parameters>> fields() {
   return table;
 }
 
-std::vector<Problem> validate(const Parameters&, const DofInputs& inputs) {
-  return checkSceneInputs(inputs);
-}
-
 uint32_t frameCount(const Parameters& parameters, const DofInputs&) {
   return parameters.pixelSamples == 1 ? 1 : passes::frameCount(meanOf(parameters));
 }
@@ -60,7 +56,15 @@ DofOutputs declare(rendergraph::Graph& graph, const DofInputs& inputs, const Par
 }
 
 Technique technique() {
-  return makeTechnique<fields, validate, declare, frameCount>({"pinhole", "Pinhole", "no lens"}, TechniqueInput::scene);
+  return makeTechnique<Parameters>({.name = "pinhole",
+                                    .title = "Pinhole",
+                                    .source = "no lens",
+                                    .input = TechniqueInput::scene,
+                                    .fields = fields(),
+                                    .declare = declare,
+                                    .frameCount = frameCount,
+                                    .quick = {.pixelSamples = 16},
+                                    .quickPixelSamples = 16});
 }
 
 }  // namespace lensgraph::passes::pinhole

@@ -1,11 +1,11 @@
 // Nodes of the two-pass filter (Zhou 2007). The formulas are in shaders/two_pass_filter/.
 #include "passes/two_pass_filter/two_pass_filter.h"
 
-#include <algorithm>
 #include <array>
 #include <string>
 
 #include "passes/nodes/statistics.h"
+#include "rendergraph/compute_pass.h"
 #include "rendergraph/error.h"
 #include "shaders/shared/statistics.h"
 #include "shaders/shared/two_pass_filter.h"
@@ -18,15 +18,11 @@
 namespace lensgraph::passes::two_pass_filter {
 namespace {
 
-using rendergraph::Binding;
 using rendergraph::Buffer;
 using rendergraph::ComputeProgram;
 using rendergraph::Graph;
+using rendergraph::groupsFor;
 using rendergraph::Image;
-using rendergraph::Pass;
-using rendergraph::PassContext;
-using rendergraph::PassKind;
-using rendergraph::Usage;
 
 const ComputeProgram kPrepare{"two_pass_filter.prepare", two_pass_filter_prepare_comp};
 const ComputeProgram kTiles{"two_pass_filter.tiles", two_pass_filter_tiles_comp};
@@ -51,12 +47,10 @@ struct Frame {
 };
 
 Frame frameOf(const DofInputs& inputs, const Parameters& parameters) {
-  Frame frame{.extent = inputs.extent,
-              .tiles = rendergraph::groupsFor(inputs.extent, shared::kTwoPassFilterTile),
-              .constants = {}};
+  Frame frame{.extent = inputs.extent, .tiles = groupsFor(inputs.extent, shared::kTwoPassFilterTile), .constants = {}};
   auto& constants = frame.constants;
   constants.lens = inputs.lens;
-  constants.lens.maxCocRadius = std::min(parameters.maxRadius, inputs.lens.maxCocRadius);
+  constants.maxRadius = parameters.maxRadius;
   constants.minRadius = parameters.minRadius;
   constants.leakage = parameters.leakage;
   constants.size = {static_cast<int32_t>(inputs.extent.width), static_cast<int32_t>(inputs.extent.height)};
@@ -85,54 +79,35 @@ Image declarePrepare(Graph& graph, const DofInputs& inputs, const Frame& frame, 
   rendergraph::Subresources depthRange = rendergraph::mip(0);
   depthRange.aspects =
       rendergraph::aspectsOf(graph.desc(inputs.depth).format) & (VK_IMAGE_ASPECT_COLOR_BIT | VK_IMAGE_ASPECT_DEPTH_BIT);
-  Pass pass = graph.addPass(kPrepare.name, PassKind::compute);
-  pass.sample(inputs.color, rendergraph::mip(0));
-  pass.sample(inputs.depth, depthRange);
-  prepared = pass.write(prepared, Usage::storage);
-  statistics = pass.modify(statistics, Usage::storage);
-  pass.record([=, color = inputs.color, depth = inputs.depth](PassContext& context) {
-    const rendergraph::SamplerDesc nearest{.filter = VK_FILTER_NEAREST};
-    const std::array<Binding, 4> bindings = {rendergraph::sampled(color, nearest, rendergraph::mip(0)),
-                                             rendergraph::sampled(depth, nearest, depthRange),
-                                             rendergraph::storage(prepared), rendergraph::storage(statistics)};
-    context.dispatch({.program = kPrepare,
-                      .bindings = bindings,
-                      .pushConstants = rendergraph::bytesOf(frame.constants),
-                      .groups = frame.tiles});
-  });
+  compute(graph, kPrepare.name, kPrepare)
+      .sample(inputs.color, rendergraph::kNearest, rendergraph::mip(0))
+      .sample(inputs.depth, rendergraph::kNearest, depthRange)
+      .write(prepared)
+      .modify(statistics)
+      .push(frame.constants)
+      .groups(frame.tiles);
   return prepared;
 }
 
 Buffer declareTiles(Graph& graph, const Frame& frame, Image prepared, Buffer& statistics) {
   constexpr uint32_t kGroup = 8;  // tiles; as in tiles.comp
   Buffer tileRadii = graph.createBuffer("two_pass_filter.tile_radii", {.size = frame.tileBytes(sizeof(float))});
-  Pass pass = graph.addPass(kTiles.name, PassKind::compute);
-  pass.read(prepared, Usage::storage);
-  tileRadii = pass.write(tileRadii, Usage::storage);
-  statistics = pass.modify(statistics, Usage::storage);
-  pass.record([=](PassContext& context) {
-    const std::array<Binding, 3> bindings = {rendergraph::storage(prepared), rendergraph::storage(tileRadii),
-                                             rendergraph::storage(statistics)};
-    context.dispatch({.program = kTiles,
-                      .bindings = bindings,
-                      .pushConstants = rendergraph::bytesOf(frame.constants),
-                      .groups = rendergraph::groupsFor({frame.tiles.x, frame.tiles.y}, kGroup)});
-  });
+  compute(graph, kTiles.name, kTiles)
+      .read(prepared)
+      .write(tileRadii)
+      .modify(statistics)
+      .push(frame.constants)
+      .groups(groupsFor({frame.tiles.x, frame.tiles.y}, kGroup));
   return tileRadii;
 }
 
 Buffer declareReach(Graph& graph, const Frame& frame, Buffer tileRadii) {
   Buffer tileTaps = graph.createBuffer("two_pass_filter.tile_taps", {.size = frame.tileBytes(sizeof(shared::uvec2))});
-  Pass pass = graph.addPass(kReach.name, PassKind::compute);
-  pass.read(tileRadii, Usage::storage);
-  tileTaps = pass.write(tileTaps, Usage::storage);
-  pass.record([=](PassContext& context) {
-    const std::array<Binding, 2> bindings = {rendergraph::storage(tileRadii), rendergraph::storage(tileTaps)};
-    context.dispatch({.program = kReach,
-                      .bindings = bindings,
-                      .pushConstants = rendergraph::bytesOf(frame.constants),
-                      .groups = rendergraph::groupsFor({frame.tiles.x, frame.tiles.y}, shared::kTwoPassFilterTile)});
-  });
+  compute(graph, kReach.name, kReach)
+      .read(tileRadii)
+      .write(tileTaps)
+      .push(frame.constants)
+      .groups(groupsFor({frame.tiles.x, frame.tiles.y}, shared::kTwoPassFilterTile));
   return tileTaps;
 }
 
@@ -140,18 +115,12 @@ Buffer declareReach(Graph& graph, const Frame& frame, Buffer tileRadii) {
 Image declareFilter(Graph& graph, const Frame& frame, const ComputeProgram& program, Image source, Buffer tileTaps,
                     const char* resultName) {
   Image result = graph.createImage(resultName, frame.image());
-  Pass pass = graph.addPass(program.name, PassKind::compute);
-  pass.read(source, Usage::storage);
-  pass.read(tileTaps, Usage::storage);
-  result = pass.write(result, Usage::storage);
-  pass.record([=, &program](PassContext& context) {
-    const std::array<Binding, 3> bindings = {rendergraph::storage(source), rendergraph::storage(result),
-                                             rendergraph::storage(tileTaps)};
-    context.dispatch({.program = program,
-                      .bindings = bindings,
-                      .pushConstants = rendergraph::bytesOf(frame.constants),
-                      .groups = frame.tiles});
-  });
+  compute(graph, program.name, program)
+      .read(source)
+      .write(result)
+      .read(tileTaps)
+      .push(frame.constants)
+      .groups(frame.tiles);
   return result;
 }
 
@@ -176,16 +145,6 @@ std::span<const Field<Parameters>> fields() {
   return all;
 }
 
-std::vector<Problem> validate(const Parameters&, const DofInputs& inputs) {
-  std::vector<Problem> problems;
-  if (!inputs.color) problems.push_back({"", "the technique needs a colour image", "set DofInputs::color"});
-  if (!inputs.depth) problems.push_back({"", "the technique needs a depth image", "set DofInputs::depth"});
-  if (inputs.extent.width == 0 || inputs.extent.height == 0) {
-    problems.push_back({"", "the picture has no pixels", "set DofInputs::extent"});
-  }
-  return problems;
-}
-
 DofOutputs declare(Graph& graph, const DofInputs& inputs, const Parameters& parameters) {
   DofOutputs outputs;
   outputs.color = inputs.color;
@@ -203,15 +162,14 @@ DofOutputs declare(Graph& graph, const DofInputs& inputs, const Parameters& para
   return outputs;
 }
 
-uint32_t frameCount(const Parameters&, const DofInputs&) {
-  return 1;
-}
-
 Technique technique() {
-  return makeTechnique<fields, validate, declare, frameCount>(
-      {"two_pass_filter", "Two-pass filter",
-       "Zhou, Chen, Pullen 2007, Accurate Depth of Field Simulation in Real Time"},
-      TechniqueInput::image);
+  return makeTechnique<Parameters>(
+      {.name = "two_pass_filter",
+       .title = "Two-pass filter",
+       .source = "Zhou, Chen, Pullen 2007, Accurate Depth of Field Simulation in Real Time",
+       .input = TechniqueInput::image,
+       .fields = fields(),
+       .declare = declare});
 }
 
 }  // namespace lensgraph::passes::two_pass_filter

@@ -20,16 +20,10 @@ struct Parameters {
 
 std::span<const Field<Parameters>> fields();
 
-/// What is wrong with inputs; empty when nothing is.
-std::vector<Problem> validate(const Parameters& parameters, const DofInputs& inputs);
-
 /// Declares six nodes: clear_statistics, prepare, tiles, reach, vertical, horizontal; none when the lens has
 /// no aperture, and the output is then inputs.color itself. Throws GraphError when the images have another
 /// size than inputs.extent.
 DofOutputs declare(rendergraph::Graph& graph, const DofInputs& inputs, const Parameters& parameters);
-
-/// Executions of the graph that make the finished picture: 1.
-uint32_t frameCount(const Parameters& parameters, const DofInputs& inputs);
 
 /// The registry's entry.
 Technique technique();

@@ -41,6 +41,7 @@ void Declaration::reset() {
   problems.clear();
   inOrder = true;
   latestPass = 0;
+  unfinishedPasses = 0;
   arena.reset();
   serial = nextSerial();
 }
@@ -53,6 +54,17 @@ GraphError::Problem Declaration::problem(Misuse misuse, uint32_t pass, uint32_t 
           .reason = std::move(reason),
           .remedy = std::move(remedy),
           .where = where};
+}
+
+std::vector<GraphError::Problem> Declaration::allProblems() const {
+  std::vector<GraphError::Problem> all = problems;
+  for (uint32_t pass = 0; unfinishedPasses != 0 && pass < passes.size(); ++pass) {
+    if (!passes[pass].unfinished) continue;
+    all.push_back(problem(Misuse::unfinishedPass, pass, kNone,
+                          "its chain of calls has no end, so it dispatches nothing",
+                          "end it with groups() or indirect()", passes[pass].where));
+  }
+  return all;
 }
 
 void Declaration::report(Misuse misuse, uint32_t pass, uint32_t resource, std::string reason, std::string remedy,

@@ -123,6 +123,7 @@ struct DeclaredPass : PassStructure {
   void* recording = nullptr;
   Recorder recorder = nullptr;
   Destroyer destroyer = nullptr;  ///< None for a recording that needs no destruction.
+  bool unfinished = false;        ///< A ComputePass whose chain of calls has no end so far.
 
   DeclaredPass() {}  // As above.
 };
@@ -162,6 +163,7 @@ struct Declaration {
   bool inOrder = true;
   uint32_t latestPass = 0;           ///< Of the latest access.
   bool recordingsToDestroy = false;  ///< Some recording has a destructor.
+  uint32_t unfinishedPasses = 0;     ///< How many passes are DeclaredPass::unfinished.
 
   Declaration();
   ~Declaration();
@@ -184,7 +186,9 @@ struct Declaration {
   /// Notes a misuse to be thrown by compile(). kNone for a pass or resource that is not concerned.
   void report(Misuse misuse, uint32_t pass, uint32_t resource, std::string reason, std::string remedy,
               std::source_location where);
-  /// The same as data.
+  /// What was reported, and the passes that are unfinished now. Empty when the declaration can be compiled.
+  std::vector<GraphError::Problem> allProblems() const;
+  /// What report() notes, as data.
   GraphError::Problem problem(Misuse misuse, uint32_t pass, uint32_t resource, std::string reason, std::string remedy,
                               std::source_location where) const;
 

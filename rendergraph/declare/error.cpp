@@ -64,6 +64,8 @@ std::string_view nameOf(Misuse misuse) {
       return "import state";
     case Misuse::subresourceRange:
       return "subresource range";
+    case Misuse::unfinishedPass:
+      return "unfinished pass";
     case Misuse::unfinishedFrame:
       return "unfinished frame";
     case Misuse::outOfMemory:

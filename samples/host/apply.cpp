@@ -42,8 +42,8 @@ uint32_t replaceNonFinite(engine::FloatImage& picture) {
 
 Rendering Renderer::apply(const engine::FloatImage& color, const engine::FloatImage& depth, double fovyDeg,
                           const passes::Lens& lens, const RenderOptions& options) {
-  const auto& technique = techniqueOf(options);
-  if (technique.input != passes::TechniqueInput::image) {
+  const auto technique = techniqueOf(options);
+  if (technique.entry.input != passes::TechniqueInput::image) {
     throw engine::Error("technique '" + options.technique + "' draws a scene; apply works on pictures");
   }
   const auto upload = [&](VkFormat format, const engine::FloatImage& picture, const char* name) {
@@ -84,7 +84,7 @@ Rendering Renderer::apply(const engine::FloatImage& color, const engine::FloatIm
     DofInputs now = inputs;
     now.color = import(graph, colorImage, "color");
     now.depth = import(graph, depthImage, "vergence");
-    return state_->declareTechnique(graph, now, technique, options);
+    return state_->declareTechnique(graph, now, technique, options.wantDepth);
   });
   rendering.statistics.replacedTexels += replaced;
   return rendering;

@@ -76,11 +76,11 @@ std::optional<engine::Environment> loadEnvironment(const Shot& shot) {
 
 }  // namespace
 
-const passes::Technique& techniqueOf(const RenderOptions& options) {
+ChosenTechnique techniqueOf(const RenderOptions& options) {
   const passes::Technique& technique = requireTechnique(options.technique, {}, "technique");
   const auto problems = passes::check(options.parameters, technique.parameters);
   if (!problems.empty()) throwProblem(problems.front(), technique.name);
-  return technique;
+  return {technique, technique.configure(options.parameters)};
 }
 
 Renderer::Renderer(engine::Device& device, const Shot& shot, std::vector<std::string>& warnings)
@@ -95,22 +95,22 @@ Renderer::Renderer(engine::Device& device, engine::Scene scene, const std::optio
 Renderer::Renderer(engine::Device& device) : state_(std::make_unique<RendererState>(device)) {}
 Renderer::~Renderer() = default;
 
-FrameOutputs RendererState::declareTechnique(Graph& graph, DofInputs inputs, const passes::Technique& technique,
-                                             const RenderOptions& options) {
+FrameOutputs RendererState::declareTechnique(Graph& graph, DofInputs inputs, const ChosenTechnique& technique,
+                                             bool wantDepth) {
   // Without a scene (apply) the pictures are already in the inputs.
   DofOutputs view;
-  const bool isImage = technique.input == passes::TechniqueInput::image;
-  if (inputs.scene != nullptr && (isImage || options.wantDepth) && technique.name != "pinhole") {
+  const bool isImage = technique.entry.input == passes::TechniqueInput::image;
+  if (inputs.scene != nullptr && (isImage || wantDepth) && technique.entry.name != "pinhole") {
     DofInputs sharp = inputs;
     sharp.frame = 0;
     view = passes::pinhole::declare(graph, sharp, {});
     inputs.color = view.color;
     inputs.depth = view.depth;
   }
-  const auto problems = technique.validate(options.parameters, inputs);
-  if (!problems.empty()) throwProblem(problems.front(), technique.name);
+  const auto problems = technique.configured->validate(inputs);
+  if (!problems.empty()) throwProblem(problems.front(), technique.entry.name);
   FrameOutputs out;
-  out.technique = technique.declare(graph, inputs, options.parameters);
+  out.technique = technique.configured->declare(graph, inputs);
   if (!out.technique.depth) out.technique.depth = view.depth;
   // Of a pinhole view that is drawn for its depth alone nothing else is asked for, and the graph leaves it out.
   if (isImage && view.statistics) out.statistics.push_back(view.statistics);
@@ -129,10 +129,10 @@ ReadBacks RendererState::declareReadBacks(Graph& graph, const FrameOutputs& fram
   return back;
 }
 
-Rendering RendererState::run(const passes::Technique& technique, const DofInputs& inputs, const RenderOptions& options,
+Rendering RendererState::run(const ChosenTechnique& technique, const DofInputs& inputs, const RenderOptions& options,
                              const DeclareFrame& declareFrame) {
   Rendering rendering;
-  const uint32_t frames = technique.frameCount(options.parameters, inputs);
+  const uint32_t frames = technique.configured->frameCount(inputs);
   Graph graph;
   rendergraph::ImageTaps taps;
   for (const auto& tap : options.taps) taps.add(tap);
@@ -169,7 +169,7 @@ Rendering RendererState::run(const passes::Technique& technique, const DofInputs
 }
 
 Rendering Renderer::render(const Shot& shot, const RenderOptions& options) {
-  const auto& technique = techniqueOf(options);
+  const auto technique = techniqueOf(options);
   const DofInputs inputs = state_->sceneInputs(shot);
   if (options.fixedRoom) {
     state_->sceneDraw.fragmentNodesPerPixel = options.fixedRoom->fragmentNodes;
@@ -180,7 +180,7 @@ Rendering Renderer::render(const Shot& shot, const RenderOptions& options) {
     auto rendering = state_->run(technique, inputs, options, [&](Graph& graph, uint32_t frame) {
       DofInputs now = inputs;
       now.frame = frame;
-      return state_->declareTechnique(graph, now, technique, options);
+      return state_->declareTechnique(graph, now, technique, options.wantDepth);
     });
     if (options.fixedRoom || !lacksRoom(rendering.statistics)) return rendering;
     makeRoom(rendering.statistics, pixels, state_->sceneDraw);
@@ -188,8 +188,8 @@ Rendering Renderer::render(const Shot& shot, const RenderOptions& options) {
 }
 
 void Renderer::declare(Graph& graph, const Shot& shot, const RenderOptions& options) {
-  const auto& technique = techniqueOf(options);
-  const auto out = state_->declareTechnique(graph, state_->sceneInputs(shot), technique, options);
+  const auto technique = techniqueOf(options);
+  const auto out = state_->declareTechnique(graph, state_->sceneInputs(shot), technique, options.wantDepth);
   graph.exportImage(out.technique.color, {VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
                                           VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
 }

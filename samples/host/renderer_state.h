@@ -18,8 +18,14 @@ namespace lensgraph::host {
 
 inline constexpr float kNothingHit = 1e10f;  ///< m; the depth of the background in pictures.
 
-/// The technique that the options name, with its parameters checked. Throws engine::Error (bad input).
-const passes::Technique& techniqueOf(const RenderOptions& options);
+/// A technique of the registry, configured.
+struct ChosenTechnique {
+  const passes::Technique& entry;
+  std::unique_ptr<const passes::ConfiguredTechnique> configured;
+};
+
+/// The technique that the options name, with their parameters. Throws engine::Error (bad input).
+ChosenTechnique techniqueOf(const RenderOptions& options);
 
 /// What of a frame comes back to the host; default-made handles are not asked for.
 struct ReadBacks {
@@ -41,11 +47,11 @@ struct RendererState {
 
   passes::DofInputs sceneInputs(const Shot& shot);
   passes::SceneShading importShading(rendergraph::Graph& graph) const;
-  Rendering run(const passes::Technique& technique, const passes::DofInputs& inputs, const RenderOptions& options,
+  Rendering run(const ChosenTechnique& technique, const passes::DofInputs& inputs, const RenderOptions& options,
                 const DeclareFrame& declareFrame);
   ReadBacks declareReadBacks(rendergraph::Graph& graph, const FrameOutputs& frame, bool isLast, bool wantDepth);
-  FrameOutputs declareTechnique(rendergraph::Graph& graph, passes::DofInputs inputs, const passes::Technique& technique,
-                                const RenderOptions& options);
+  FrameOutputs declareTechnique(rendergraph::Graph& graph, passes::DofInputs inputs, const ChosenTechnique& technique,
+                                bool wantDepth);
 
   engine::Device& device;
   engine::GraphBackend backend;

@@ -19,10 +19,20 @@ SHARED_CONST float kTwoPassFilterMaxRadiance = 1e30f;
 struct TwoPassFilterConstants {
   ivec2 size;          // px; these two first, where GLSL's 8-byte alignment of vectors and C++'s agree
   ivec2 tiles;         // number of tiles
-  LensConstants lens;  // its maxCocRadius is the smaller of the lens's limit and the technique's
+  LensConstants lens;
+  float maxRadius;     // px: blur radii are limited to it, and to the lens's maxCocRadius
   float minRadius;     // px, r_min of I = 1/max(r, r_min)²
   float leakage;       // 1/px, k of L = min(1, k·r_c)
 };
+
+// px: the largest blur radius that is filtered.
+SHARED_FUNCTION float radiusLimit(TwoPassFilterConstants constants) {
+#ifdef __cplusplus
+  return std::fmin(constants.maxRadius, constants.lens.maxCocRadius);
+#else
+  return min(constants.maxRadius, constants.lens.maxCocRadius);
+#endif
+}
 
 SHARED_NAMESPACE_END
 

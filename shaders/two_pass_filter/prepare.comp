@@ -36,5 +36,6 @@ void main() {
   }
   rgb = clamp(rgb, -kTwoPassFilterMaxRadiance, kTwoPassFilterMaxRadiance);
   float radius = signedCocRadius(constants.lens, max(vergence, 0.0));  // Nothing lies behind the eye.
+  radius = clamp(radius, -radiusLimit(constants), radiusLimit(constants));
   imageStore(prepared, pixel, vec4(rgb, radius));
 }

@@ -17,7 +17,7 @@ layout(push_constant) uniform Constants { TwoPassFilterConstants constants; };
 uint tapsAlong(ivec2 tile, ivec2 axis) {
   int last = axis.x > 0 ? constants.tiles.x - 1 : constants.tiles.y - 1;
   int here = axis.x > 0 ? tile.x : tile.y;
-  int reach = int(ceil(constants.lens.maxCocRadius)) / int(kTwoPassFilterTile) + 1;
+  int reach = int(ceil(radiusLimit(constants))) / int(kTwoPassFilterTile) + 1;
   float largest = 0.0;
   for (int i = max(here - reach, 0); i <= min(here + reach, last); ++i) {
     ivec2 other = tile + (i - here) * axis;

@@ -26,7 +26,7 @@ void main() {
     for (int x = first.x; x < end.x; ++x) {
       float radius = abs(imageLoad(prepared, ivec2(x, y)).a);
       largest = max(largest, radius);
-      if (radius >= constants.lens.maxCocRadius) ++limited;
+      if (radius >= radiusLimit(constants)) ++limited;
     }
   }
   tileRadii[tile.y * constants.tiles.x + tile.x] = largest;

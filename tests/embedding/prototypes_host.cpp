@@ -55,7 +55,7 @@ bool compileTechnique() {
   inputs.lens.vergenceScale = 10.0f;  // 1/m: reversed depth, near plane at 0.1 m
   inputs.aperture.anamorphicRatio = 1.0f;
   const passes::two_pass_filter::Parameters parameters;
-  for (const passes::Problem& problem : passes::two_pass_filter::validate(parameters, inputs)) {
+  for (const passes::Problem& problem : passes::checkInputs(passes::TechniqueInput::image, inputs)) {
     std::printf("%s: %s\n", problem.parameter.c_str(), problem.reason.c_str());
     return false;
   }

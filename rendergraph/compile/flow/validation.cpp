@@ -94,7 +94,7 @@ void checkPasses(const Declaration& declaration, Problems& problems) {
 
 std::vector<GraphError::Problem> findProblems(const Declaration& declaration, const Cells& cells,
                                               const DeviceFacts& device) {
-  Problems problems = declaration.problems;
+  Problems problems = declaration.allProblems();
   checkContent(declaration, cells, problems);
   checkPasses(declaration, problems);
   checkLimits(declaration, device, problems);

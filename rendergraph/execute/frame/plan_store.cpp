@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <memory>
+#include <utility>
 
 #include "rendergraph/compiler.h"
 #include "rendergraph/declare/declaration.h"
@@ -11,7 +12,7 @@ namespace lensgraph::rendergraph {
 
 bool PlanStore::select(const Declaration& declaration, const CompileOptions& options) {
   // Problems with handles leave no trace in the structure, so an equal structure does not excuse them.
-  if (!declaration.problems.empty()) throw GraphError(declaration.problems);
+  if (auto problems = declaration.allProblems(); !problems.empty()) throw GraphError(std::move(problems));
   current_ = nullptr;
   const uint64_t hash = structuralHash(declaration, options);
   CachedPlan* found = plans_.find(hash);

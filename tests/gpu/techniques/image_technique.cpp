@@ -89,8 +89,9 @@ ImageOutput ImageTechniqueRunner::run(std::string_view technique, const ImageInp
   const auto* found = passes::findTechnique(technique);
   if (found == nullptr) throw std::runtime_error("no such technique");
   EXPECT_TRUE(check(parameters, found->parameters).empty());
-  EXPECT_TRUE(found->validate(parameters, inputs).empty());
-  const auto outputs = found->declare(graph, inputs, parameters);
+  const auto configured = found->configure(parameters);
+  EXPECT_TRUE(configured->validate(inputs).empty());
+  const auto outputs = configured->declare(graph, inputs);
 
   const auto pixels = readback(graph, outputs.color, input.color.size() * sizeof(Rgba));
   rendergraph::Buffer statistics;

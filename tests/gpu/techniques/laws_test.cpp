@@ -19,17 +19,13 @@ namespace {
 using passes::ParameterSet;
 using support::render;
 
-/// Few enough views to be quick; the laws hold for any number.
+/// Few enough views to take little time; the laws hold for any number.
+const passes::QuickSettings& quickSettings(const std::string& technique) {
+  return passes::findTechnique(technique)->quick;
+}
+
 ParameterSet quick(const std::string& technique) {
-  ParameterSet parameters;
-  if (technique == "accumulation") parameters["lensSamples"] = int64_t{16};
-  if (technique == "pinhole") parameters["pixelSamples"] = int64_t{16};
-  if (technique == "multiview_synthesis") {
-    parameters["lensSamples"] = int64_t{32};
-    parameters["views"] = int64_t{4};
-  }
-  if (technique == "multilayer_filtering") parameters["antialiasing"] = std::string("2x2");
-  return parameters;
+  return quickSettings(technique).parameters;
 }
 
 std::vector<std::string> techniqueNames() {
@@ -44,12 +40,7 @@ TEST_P(Laws, ApertureZeroIsThePinholePictureBitForBit) {
   host::Renderer renderer(support::device(), support::layeredScene(), std::nullopt);
   auto shot = support::smallShot(160, 90);
   shot.lens.apertureRadius = 0.0;
-  ParameterSet sharp;
-  if (GetParam() == "multiview_synthesis" || GetParam() == "multilayer_filtering") {
-    sharp["pixelSamples"] = int64_t{4};
-  } else if (GetParam() != "two_pass_filter") {
-    sharp["pixelSamples"] = int64_t{16};
-  }
+  const ParameterSet sharp = {{"pixelSamples", int64_t{quickSettings(GetParam()).pixelSamples}}};
   const auto pinhole = render(renderer, shot, "pinhole", sharp);
   const auto picture = render(renderer, shot, GetParam(), quick(GetParam()));
   EXPECT_TRUE(picture.color.samples == pinhole.color.samples);

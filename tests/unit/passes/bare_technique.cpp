@@ -35,7 +35,7 @@ void declareBare(rendergraph::Graph& graph, const passes::Technique& technique, 
     inputs.color = host("host.color", VK_FORMAT_R32G32B32A32_SFLOAT);
     inputs.depth = host("host.depth", VK_FORMAT_D32_SFLOAT);
   }
-  const auto out = technique.declare(graph, inputs, options.parameters);
+  const auto out = technique.configure(options.parameters)->declare(graph, inputs);
   graph.exportImage(out.color, kSampled);
   if (out.standardError) graph.exportImage(out.standardError, kSampled);
   if (out.statistics) graph.exportBuffer(out.statistics, kHostRead);

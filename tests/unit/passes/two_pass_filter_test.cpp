@@ -41,7 +41,7 @@ struct Frame {
   }
 
   passes::DofOutputs declare(const passes::ParameterSet& parameters = {}) {
-    return passes::findTechnique("two_pass_filter")->declare(graph, inputs, parameters);
+    return passes::findTechnique("two_pass_filter")->configure(parameters)->declare(graph, inputs);
   }
 
   std::vector<std::string_view> declaredPasses() const {
@@ -125,9 +125,9 @@ TEST(TwoPassFilter, ItsResultReusesTheMemoryOfItsInput) {
 TEST(TwoPassFilter, MissingInputsAreSaidInWords) {
   Frame frame;
   const auto* technique = passes::findTechnique("two_pass_filter");
-  EXPECT_TRUE(technique->validate({}, frame.inputs).empty());
+  EXPECT_TRUE(technique->configure({})->validate(frame.inputs).empty());
   passes::DofInputs nothing;
-  const auto problems = technique->validate({}, nothing);
+  const auto problems = technique->configure({})->validate(nothing);
   ASSERT_EQ(problems.size(), 3u);
   for (const auto& problem : problems) EXPECT_FALSE(problem.remedy.empty());
 }

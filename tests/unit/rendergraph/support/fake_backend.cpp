@@ -413,7 +413,13 @@ void FakeBackend::noteBindings(const CommandStream& stream, std::string line, st
 }
 
 void FakeBackend::dispatch(const CommandStream& stream, const rendergraph::ResolvedDispatch& dispatch) {
-  if (!silent) noteBindings(stream, "dispatch " + std::string(dispatch.program.name), dispatch.bindings);
+  if (silent) return;
+  noteBindings(stream, "dispatch " + std::string(dispatch.program.name), dispatch.bindings);
+  dispatched = {.pushConstants = {dispatch.pushConstants.begin(), dispatch.pushConstants.end()},
+                .specialization = {dispatch.specialization.begin(), dispatch.specialization.end()},
+                .groups = dispatch.groups,
+                .indirect = dispatch.indirect,
+                .indirectOffset = dispatch.indirectOffset};
 }
 
 void FakeBackend::draw(const CommandStream& stream, const rendergraph::ResolvedDraw& draw) {

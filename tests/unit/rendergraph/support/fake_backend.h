@@ -22,10 +22,19 @@ class FakeBackend : public rendergraph::Backend {
   std::vector<VkMemoryBarrier2> memoryBarriers;      ///< The same.
   std::vector<VkRenderingAttachmentInfo> attachments;  ///< Colour attachments of all renderings, the same.
   std::vector<rendergraph::ResolvedBinding> bindings;  ///< Of the latest dispatch or draw.
-  std::map<uint64_t, std::string> living;              ///< Objects that were made and not destroyed, by id.
-  std::map<uint64_t, uint64_t> viewed;                 ///< View to image.
-  std::set<uint64_t> concurrent;                       ///< Images and buffers with that sharing mode.
-  std::vector<std::string> mistakes;                   ///< What no backend should be asked for.
+  /// The latest dispatch, without its bindings.
+  struct Dispatched {
+    std::vector<std::byte> pushConstants;
+    std::vector<uint32_t> specialization;
+    rendergraph::Groups groups;
+    VkBuffer indirect = VK_NULL_HANDLE;
+    VkDeviceSize indirectOffset = 0;
+  };
+  Dispatched dispatched;
+  std::map<uint64_t, std::string> living;  ///< Objects that were made and not destroyed, by id.
+  std::map<uint64_t, uint64_t> viewed;     ///< View to image.
+  std::set<uint64_t> concurrent;           ///< Images and buffers with that sharing mode.
+  std::vector<std::string> mistakes;       ///< What no backend should be asked for.
   uint32_t creations = 0;
 
   std::vector<rendergraph::QueueFacts> queueFacts{{}};
