@@ -1,11 +1,12 @@
-# lensgraph_embed_text(OUTPUT FILE…): writes C++ string literals of the files' content, one after the other, for
-# #include as one initializer. The files are text without the sequence )text".
+# lensgraph_embed_text(OUTPUT FILE…): writes the bytes of the files, one file after the other, and a zero for #include
+# between the braces of a char array. Not as string literals: compilers need accept no more than 64 KiB of those.
 function(lensgraph_embed_text output)
-  set(literals "")
+  set(bytes "")
   foreach(file IN LISTS ARGN)
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
-    file(READ ${file} content)
-    string(APPEND literals "R\"text(${content})text\"\n")
+    file(READ ${file} content HEX)
+    string(REGEX REPLACE "(..)" "'\\\\x\\1'," content "${content}")
+    string(APPEND bytes "${content}\n")
   endforeach()
-  file(GENERATE OUTPUT ${output} CONTENT "${literals}")
+  file(GENERATE OUTPUT ${output} CONTENT "${bytes}0\n")
 endfunction()

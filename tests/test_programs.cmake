@@ -2,10 +2,18 @@
 find_package(GTest REQUIRED)
 include(GoogleTest)
 
+# GoogleTest's headers, parsed once; CMAKE_DISABLE_PRECOMPILE_HEADERS=ON leaves that to every file.
+file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/generated/test_headers.cpp
+  CONTENT "// A target with precompiled headers must have a source.\n")
+add_library(lensgraph_test_headers OBJECT ${CMAKE_BINARY_DIR}/generated/test_headers.cpp)
+target_link_libraries(lensgraph_test_headers PRIVATE GTest::gmock lensgraph_flags)
+target_precompile_headers(lensgraph_test_headers PRIVATE <algorithm> <functional> <gmock/gmock.h> <gtest/gtest.h>)
+
 function(add_test_program name label)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   add_executable(${name} ${sources})
   target_link_libraries(${name} PRIVATE ${ARGN} GTest::gmock GTest::gtest_main lensgraph_flags)
+  target_precompile_headers(${name} REUSE_FROM lensgraph_test_headers)
   get_filename_component(root ${CMAKE_CURRENT_FUNCTION_LIST_DIR} DIRECTORY)
   target_compile_definitions(${name} PRIVATE
     LENSGRAPH_SOURCE_DIR="${root}" LENSGRAPH_SHOTS_DIR="${LENSGRAPH_SHOTS}")

@@ -12,20 +12,20 @@
 namespace lensgraph::cli {
 namespace {
 
-constexpr char kPage[] =
+constexpr char kPage[] = {
 #include "generated/capture_page.inc"
-    ;
-constexpr char kScript[] =
+};
+constexpr char kScript[] = {
 #include "generated/capture_page_script.inc"
-    ;
-constexpr char kLibraries[] = ""
+};
+constexpr char kLibraries[] = {
 #include "generated/page_libraries.inc"
-    ;
+};
 
-/// A literal's length is known; measuring half a megabyte at compile time is beyond compilers' limits.
+/// An array's length is known; measuring half a megabyte at compile time is beyond compilers' limits.
 template <std::size_t Size>
-std::string_view textOf(const char (&literal)[Size]) {
-  return {literal, Size - 1};
+std::string_view textOf(const char (&array)[Size]) {
+  return {array, Size - 1};
 }
 
 void put(std::string& page, std::string_view mark, std::string_view content) {

@@ -14,9 +14,9 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* kTemplate =
+constexpr char kTemplate[] = {
 #include "generated/demo_page.inc"
-    ;
+};
 
 std::string fixed(double value, int digits) {
   if (std::isinf(value)) return value > 0.0 ? "∞" : "-∞";

@@ -57,7 +57,7 @@ void writeAll(const std::filesystem::path& folder) {
 
 std::optional<Options> parse(int count, char** arguments) {
   Options options;
-  for (int i = 1; i < count; ++i) {
+  for (int i = 1; i < count; i += 2) {
     const std::string_view word = arguments[i];
     const char* value = i + 1 < count ? arguments[i + 1] : nullptr;
     if (value == nullptr) return std::nullopt;
@@ -74,7 +74,6 @@ std::optional<Options> parse(int count, char** arguments) {
     } else {
       return std::nullopt;
     }
-    ++i;
   }
   if (options.scaling && options.output.extension() != ".glb") return std::nullopt;
   if (options.output.empty()) options.output = "out/scenes";
