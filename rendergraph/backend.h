@@ -1,4 +1,4 @@
-// What the executor asks of a device. engine/graph_backend implements it on Vulkan; a host engine may implement
+// What the executor asks of a device. engine/graph/graph_backend implements it on Vulkan; a host engine may implement
 // it on its own abstraction; tests implement it without a device.
 //
 // Failures throw GraphError (Misuse::device, outOfMemory, deviceLost) with the Vulkan result in words; a function that

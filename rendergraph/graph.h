@@ -3,10 +3,10 @@
 //   Graph graph;
 //   Image color = graph.importImage("scene color", desc, {.image = ..., .before = ..., .after = ...});
 //   Image half = graph.createImage("half", {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .width = w / 2, .height = h / 2});
-//   Pass down = graph.addPass("downsample", PassKind::compute);
-//   down.sample(color);
-//   half = down.write(half, Usage::storage);
-//   down.record([=](PassContext& context) { context.dispatch({...}); });
+//   compute(graph, "downsample", kDownsample).sample(color).write(half).groups(groups);  // compute_pass.h
+//   Pass draw = graph.addPass("overlay", PassKind::raster);                              // any other kind of pass
+//   half = draw.color(half, {.load = LoadOp::load});
+//   draw.record([=](PassContext& context) { context.draw({...}); });
 //   graph.exportImage(half, {.stages = ..., .access = ..., .layout = ...});
 //   executor.execute(graph);
 //
@@ -67,7 +67,7 @@ class Graph {
   History history(std::string_view name, const ImageDesc& desc, Location where = Location::current());
 
   /// Makes the content observable after the frame: its passes are kept, its memory is not reused, and it is left in
-  /// state `after`. A graph-made resource can be looked up with Executor::exported() until the next execute().
+  /// state `after`. A graph-made resource can be looked up with Executor::exportedImage() and exportedBuffer() until the next execute().
   void exportImage(Image image, const AccessState& after, Location where = Location::current());
   void exportBuffer(Buffer buffer, const AccessState& after, Location where = Location::current());
 

@@ -1,4 +1,4 @@
-// The list of techniques. To add one: its folder's header here, and one line below.
+// The list of techniques. docs/new_technique.md says how to add one.
 #include "passes/registry/registry.h"
 
 #include <algorithm>

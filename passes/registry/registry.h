@@ -1,4 +1,4 @@
-// All techniques by name. A new technique is one folder and one line in registry.cpp.
+// All techniques by name. docs/new_technique.md says how to add one.
 #pragma once
 
 #include <span>

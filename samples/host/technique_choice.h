@@ -1,7 +1,7 @@
 // Which technique with which parameters: from a shot file, a configuration file, and the command line.
 //
 // Names, types and ranges are checked against the registry, so that a choice that exists is a legal one; what
-// needs the inputs to be seen (Technique::validate) is checked when it renders.
+// needs the inputs to be seen (ConfiguredTechnique::validate) is checked when it renders.
 #pragma once
 
 #include <filesystem>

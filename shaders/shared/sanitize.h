@@ -1,4 +1,4 @@
-// Constants of the node that replaces what is not finite (shaders/sanitize, passes/sanitize).
+// Constants of the node that replaces what is not finite (shaders/sanitize, passes/nodes/sanitize).
 #ifndef LENSGRAPH_SHARED_SANITIZE_H
 #define LENSGRAPH_SHARED_SANITIZE_H
 

@@ -7,7 +7,7 @@
 SHARED_NAMESPACE_BEGIN
 
 struct FrameStatistics {
-  uint replacedTexels;        // NaN or Inf texels of the input that were replaced by 0
+  uint replacedTexels;        // NaN or Inf texels of the input that were replaced, by black or the depth of the sky
   uint transparentNodes;      // most alpha-blended fragments that the lists of one view were asked to hold
   uint transparentDropped;    // most that found no room in one view (the picture is then incomplete)
   uint transparentUnsorted;   // pixels, over all views, with lists too long to composite whole: the nearest fragments are missing

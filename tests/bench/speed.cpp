@@ -4,12 +4,14 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <string>
 
 #include "allocation_count.h"
 #include "rendergraph/compile/memory/packing.h"
 #include "rendergraph/compiler.h"
+#include "rendergraph/compute_pass.h"
 #include "rendergraph/executor.h"
 #include "support/corpus.h"
 #include "support/fake_backend.h"
@@ -110,10 +112,73 @@ void unchangedFrame(benchmark::State& state, corpus::Workload workload, uint32_t
   measure(state, frames, [&] { executor.execute(frames.declare(), {.compile = {.aliasing = Aliasing::fast}}); });
 }
 
+const ComputeProgram kProgram{.name = "program", .shader = {}};
+struct Push {
+  float values[8];
+};
+
+/// One pass that samples two textures, writes one, and dispatches once; both forms declare and record the same.
+Image declareLong(Graph& graph, Image a, Image b, Image result, const Push& push) {
+  Pass pass = graph.addPass("pass", PassKind::compute);
+  pass.sample(a);
+  pass.sample(b);
+  result = pass.write(result, Usage::storage);
+  pass.record([=](PassContext& context) {
+    const std::array bindings = {sampled(a), sampled(b), storage(result)};
+    context.dispatch(
+        {.program = kProgram, .bindings = bindings, .pushConstants = bytesOf(push), .groups = groupsFor({64, 64}, 8)});
+  });
+  return result;
+}
+
+Image declareShort(Graph& graph, Image a, Image b, Image result, const Push& push) {
+  compute(graph, "pass", kProgram).sample(a).sample(b).write(result).push(push).groups(groupsFor({64, 64}, 8));
+  return result;
+}
+
+/// chain2 with dispatches.
+template <Image (*declarePass)(Graph&, Image, Image, Image, const Push&)>
+void declareDispatches(Graph& graph, uint32_t passes) {
+  const ImageDesc desc{.format = VK_FORMAT_R16G16B16A16_SFLOAT, .width = 64, .height = 64};
+  graph.reset();
+  Image before = graph.persistentImage("start", desc), last = before;
+  for (uint32_t i = 0; i < passes; ++i) {
+    const Image result = declarePass(graph, last, before, graph.createImage("texture", desc), {{1.0f}});
+    before = last;
+    last = result;
+  }
+  graph.exportImage(
+      last, {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL});
+}
+
+template <Image (*declarePass)(Graph&, Image, Image, Image, const Push&)>
+void dispatchesDeclared(benchmark::State& state, corpus::Workload workload, uint32_t passes) {
+  const Frames frames(workload, passes - 1);
+  Graph graph;
+  measure(state, frames, [&] {
+    declareDispatches<declarePass>(graph, passes);
+    benchmark::DoNotOptimize(&graph);
+  });
+}
+
+template <Image (*declarePass)(Graph&, Image, Image, Image, const Push&)>
+void dispatchesExecuted(benchmark::State& state, corpus::Workload workload, uint32_t passes) {
+  const Frames frames(workload, passes - 1);
+  FakeBackend backend;
+  backend.silent = true;
+  Executor executor(backend);
+  Graph graph;
+  measure(state, frames, [&] {
+    declareDispatches<declarePass>(graph, passes);
+    executor.execute(graph, {.compile = {.aliasing = Aliasing::fast}});
+  });
+}
+
 struct Step {
   const char* name;
   void (*run)(benchmark::State&, corpus::Workload, uint32_t);
   uint32_t mostPasses;
+  bool onlyChain2 = false;
 };
 constexpr Step kSteps[] = {
     {"declare", declareOnly, 10000},
@@ -124,6 +189,10 @@ constexpr Step kSteps[] = {
     {"compile, no aliasing", declareAndCompile<Aliasing::none>, 10000},
     {"compile, fast", declareAndCompile<Aliasing::fast>, 10000},
     {"compile, best", declareAndCompile<Aliasing::best>, 10000},
+    {"declare dispatches, Pass", dispatchesDeclared<declareLong>, 10000, true},
+    {"declare dispatches, ComputePass", dispatchesDeclared<declareShort>, 10000, true},
+    {"unchanged frame of dispatches, Pass", dispatchesExecuted<declareLong>, 1000, true},
+    {"unchanged frame of dispatches, ComputePass", dispatchesExecuted<declareShort>, 1000, true},
 };
 
 /// Prints as usual, and keeps every repetition.
@@ -157,7 +226,7 @@ void registerSpeed() {
   for (const Step& step : kSteps) {
     for (const auto& [workload, name] : corpus::kWorkloads) {
       for (uint32_t passes : {10u, 100u, 1000u, 10000u}) {
-        if (passes > step.mostPasses) continue;
+        if (passes > step.mostPasses || (step.onlyChain2 && workload != corpus::Workload::chain2)) continue;
         const std::string full = std::string(step.name) + "/" + std::string(name) + "/" + std::to_string(passes);
         benchmark::RegisterBenchmark(full.c_str(), step.run, workload, passes);
       }

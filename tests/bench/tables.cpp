@@ -49,6 +49,19 @@ std::string speedTable(const ordered_json& speed) {
   return text + line({"heap allocations in an unchanged frame", cell("chain2"), cell("dag16"), cell("wide8")});
 }
 
+/// The two ways of declaring a compute pass, on chain2 with a dispatch of three bindings and 32 bytes of constants.
+std::string dispatchTable(const ordered_json& speed) {
+  std::string text =
+      line({"CPU ns per pass at 10 / 100 / 1000 / 10 000 passes", "`Pass`", "`ComputePass`"}) + "|---|---|---|\n";
+  for (const char* step : {"declare dispatches", "unchanged frame of dispatches"}) {
+    const auto cell = [&](const char* form) {
+      return speedCell(speed, std::string(step) + ", " + form, "chain2", "leastNsPerPass", "%.0f");
+    };
+    text += line({step, cell("Pass"), cell("ComputePass")});
+  }
+  return text;
+}
+
 std::string aliasingTable(const ordered_json& rows) {
   std::string text =
       line({"heap ÷ largest live sum, mean (worst)", "chain2", "dag16", "wide8"}) + "|---|---|---|---|\n";
@@ -96,8 +109,9 @@ std::string techniquesTable(const ordered_json& rows) {
 }  // namespace
 
 std::string markdown(const ordered_json& results) {
-  return speedTable(results.at("speed")) + "\n" + aliasingTable(results.at("aliasing")) + "\n" +
-         batchesTable(results.at("batches")) + "\n" + techniquesTable(results.at("techniques"));
+  return speedTable(results.at("speed")) + "\n" + dispatchTable(results.at("speed")) + "\n" +
+         aliasingTable(results.at("aliasing")) + "\n" + batchesTable(results.at("batches")) + "\n" +
+         techniquesTable(results.at("techniques"));
 }
 
 }  // namespace lensgraph::bench

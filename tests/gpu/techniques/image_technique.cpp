@@ -77,6 +77,13 @@ ImageTechniqueRunner::~ImageTechniqueRunner() = default;
 
 ImageOutput ImageTechniqueRunner::run(std::string_view technique, const ImageInput& input,
                                       const passes::ParameterSet& parameters, rendergraph::Timing timing) {
+  const auto* found = passes::findTechnique(technique);
+  if (found == nullptr) throw std::runtime_error("no such technique");
+  return run(*found, input, parameters, timing);
+}
+
+ImageOutput ImageTechniqueRunner::run(const passes::Technique& technique, const ImageInput& input,
+                                      const passes::ParameterSet& parameters, rendergraph::Timing timing) {
   const auto color = uploaded(input.extent, VK_FORMAT_R32G32B32A32_SFLOAT, input.color, "test color");
   const auto depth = uploaded(input.extent, VK_FORMAT_R32_SFLOAT, input.depth, "test depth");
 
@@ -86,10 +93,8 @@ ImageOutput ImageTechniqueRunner::run(std::string_view technique, const ImageInp
   inputs.lens = input.lens;
   inputs.color = imported(graph, color, "color");
   inputs.depth = imported(graph, depth, "depth");
-  const auto* found = passes::findTechnique(technique);
-  if (found == nullptr) throw std::runtime_error("no such technique");
-  EXPECT_TRUE(check(parameters, found->parameters).empty());
-  const auto configured = found->configure(parameters);
+  EXPECT_TRUE(check(parameters, technique.parameters).empty());
+  const auto configured = technique.configure(parameters);
   EXPECT_TRUE(configured->validate(inputs).empty());
   const auto outputs = configured->declare(graph, inputs);
 

@@ -33,8 +33,11 @@ class ImageTechniqueRunner {
   ImageTechniqueRunner();
   ~ImageTechniqueRunner();
 
+  /// Of the registry; by name, or any other.
   ImageOutput run(std::string_view technique, const ImageInput& input, const passes::ParameterSet& parameters = {},
                   rendergraph::Timing timing = rendergraph::Timing::none);
+  ImageOutput run(const passes::Technique& technique, const ImageInput& input,
+                  const passes::ParameterSet& parameters = {}, rendergraph::Timing timing = rendergraph::Timing::none);
 
  private:
   struct Gpu;

@@ -44,6 +44,9 @@ const Directions kDirections = {
     // Techniques. Each may declare the pinhole view, and none knows the list of all.
     {"passes/*", {"passes", "passes/lens", "passes/nodes", "passes/pinhole", kGraph, kShared}},
     {"passes/registry", {"passes", "passes/*", kGraph, kShared}},
+    // Copied, these go to shaders/shared and tests/gpu/techniques.
+    {"passes/_template/shaders/shared", {kShared}},
+    {"passes/_template/tests", {"passes/_template"}},
 
     {"engine", {}},
     {"engine/vulkan", {"engine", kGraph}},

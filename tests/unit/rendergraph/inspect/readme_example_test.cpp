@@ -9,8 +9,8 @@
 
 // clang-format off
 // [example]
+#include "rendergraph/compute_pass.h"
 #include "rendergraph/executor.h"
-#include "rendergraph/graph.h"
 
 using namespace lensgraph::rendergraph;
 
@@ -20,32 +20,14 @@ const ComputeProgram kBright{.name = "bright", .shader = {}}, kBlur{.name = "blu
 /// Glow around bright parts, blurred at half size: handles in, handle out.
 Image addGlow(Graph& graph, Image color, float threshold) {
   const ImageDesc full = graph.desc(color), half = dividedBy(full, 2);
+  Image bright = graph.createImage("glow.bright", half), blurred = graph.createImage("glow.blurred", half);
+  Image sum = graph.createImage("glow.sum", full);
+  const Groups quarter = groupsFor(mipExtent(half, 0), 8), all = groupsFor(mipExtent(full, 0), 8);
 
-  Pass select = graph.addPass("glow.select", PassKind::compute);
-  select.sample(color);
-  const Image bright = select.write(graph.createImage("glow.bright", half), Usage::storage);
-  select.record([=](PassContext& context) {
-    const Binding bindings[] = {sampled(color), storage(bright)};
-    context.dispatch({.program = kBright, .bindings = bindings, .pushConstants = bytesOf(threshold),
-                      .groups = groupsFor(context.extent(bright), 8)});
-  });
-
-  Pass blur = graph.addPass("glow.blur", PassKind::compute);
-  blur.sample(bright);
-  const Image blurred = blur.write(graph.createImage("glow.blurred", half), Usage::storage);
-  blur.record([=](PassContext& context) {
-    const Binding bindings[] = {sampled(bright), storage(blurred)};
-    context.dispatch({.program = kBlur, .bindings = bindings, .groups = groupsFor(context.extent(blurred), 8)});
-  });
-
-  Pass add = graph.addPass("glow.add", PassKind::compute);
-  add.sample(color);
-  add.sample(blurred);
-  const Image sum = add.write(graph.createImage("glow.sum", full), Usage::storage);
-  add.record([=](PassContext& context) {
-    const Binding bindings[] = {sampled(color), sampled(blurred), storage(sum)};
-    context.dispatch({.program = kAdd, .bindings = bindings, .groups = groupsFor(context.extent(sum), 8)});
-  });
+  // An access is a binding: the order of the calls numbers them. A write makes the handle that of the result.
+  compute(graph, "glow.select", kBright).sample(color).write(bright).push(threshold).groups(quarter);
+  compute(graph, "glow.blur", kBlur).sample(bright).write(blurred).groups(quarter);
+  compute(graph, "glow.add", kAdd).sample(color).sample(blurred).write(sum).groups(all);
   return sum;
 }
 
