@@ -36,7 +36,7 @@ struct SpecializationConstant {
   uint32_t bits;
 };
 
-struct ComputeRecording;  // declare/compute_pass.cpp: the dispatch, in the graph's arena.
+struct DeclaredDispatch;  // declare/declaration.h: the dispatch, in the graph's arena.
 
 /// Declares a compute pass with one dispatch, by a chain of calls that groups() or indirect() ends. Made by compute(); it
 /// must not outlive the graph. Errors are GraphErrors as those of Pass, with the source line of the call.
@@ -94,12 +94,13 @@ class ComputePass {
   friend ComputePass compute(Graph& graph, std::string_view name, const ComputeProgram& program, Location where);
 
   ComputePass(Pass pass, const ComputeProgram& program);
-  void bind(const Binding& binding);
+  ComputePass& bind(Image image, VkImageViewType viewType, const SamplerDesc& sampler, Location where);
+  ComputePass& bind();
   ComputePass& pushBytes(std::span<const std::byte> bytes);
   void finish();
 
   Pass pass_;
-  ComputeRecording* recording_;
+  DeclaredDispatch* dispatch_;
 };
 
 /// Begins a compute pass. `name` is the pass's, which may differ from the program's; `program` has static storage

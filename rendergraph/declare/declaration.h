@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <iterator>
 #include <source_location>
+#include <span>
 #include <string_view>
 #include <type_traits>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "rendergraph/error.h"
 #include "rendergraph/handle.h"
 #include "rendergraph/pass_kind.h"
+#include "rendergraph/program.h"
 #include "rendergraph/resource.h"
 #include "rendergraph/usage.h"
 
@@ -102,6 +104,24 @@ struct DeclaredAccess : AccessStructure {
   bool needsContent() const { return mode != AccessMode::write; }
 };
 
+/// A binding of a ComputePass: one of the pass's accesses, and what shows it to the shader.
+struct DispatchBinding {
+  uint32_t access;  ///< Among Declaration::accesses.
+  VkImageViewType viewType = VK_IMAGE_VIEW_TYPE_2D;
+  SamplerDesc sampler;
+};
+
+/// The one dispatch of a ComputePass. All of it lies in the arena, and needs no destruction.
+struct DeclaredDispatch {
+  const ComputeProgram* program;
+  std::span<const DispatchBinding> bindings;
+  std::span<const std::byte> pushConstants;
+  std::span<const uint32_t> specialization;
+  Groups groups;
+  uint32_t indirect = kNone;  ///< The buffer's resource; kNone: `groups` counts.
+  VkDeviceSize indirectOffset = 0;
+};
+
 struct PassStructure {
   PassKind kind = PassKind::compute;
   QueuePreference queue = QueuePreference::graphics;
@@ -123,7 +143,9 @@ struct DeclaredPass : PassStructure {
   void* recording = nullptr;
   Recorder recorder = nullptr;
   Destroyer destroyer = nullptr;  ///< None for a recording that needs no destruction.
-  bool unfinished = false;        ///< A ComputePass whose chain of calls has no end so far.
+  /// Of a ComputePass, which has no recording.
+  const DeclaredDispatch* dispatch = nullptr;
+  bool unfinished = false;  ///< A ComputePass whose chain of calls has no end so far.
 
   DeclaredPass() {}  // As above.
 };

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -59,11 +60,12 @@ TEST_F(TemplateTechnique, LeavesWhatIsInFocusAsItIs) {
 }
 
 TEST_F(TemplateTechnique, KeepsAConstantColor) {
-  for (const Rgba& texel : run(picture(0.0f)).color) {
-    EXPECT_NEAR(texel[0], 0.25f, 1e-5f);
-    EXPECT_NEAR(texel[1], 3.0f, 1e-4f);
-    EXPECT_EQ(texel[3], 1.0f);
+  const ImageInput input = picture(0.0f);
+  float worst = 0.0f;
+  for (const Rgba& texel : run(input).color) {
+    for (std::size_t c = 0; c < 4; ++c) worst = std::max(worst, std::abs(texel[c] / input.color[0][c] - 1.0f));
   }
+  EXPECT_LE(worst, 1e-5f);
 }
 
 TEST_F(TemplateTechnique, BlursAnEdgeOverItsCircleOfConfusion) {

@@ -176,9 +176,42 @@ void StepRecorder::beginRendering(const PlannedPass& planned) {
   frame_->backend.beginRendering(state_.commands, rendering);
 }
 
+void StepRecorder::recordDispatch(const DeclaredDispatch& dispatch) {
+  const Declaration& declaration = *frame_->declaration;
+  state_.bindings.clear();
+  for (const DispatchBinding& binding : dispatch.bindings) {
+    const DeclaredAccess& access = declaration.accesses[binding.access];
+    ResolvedBinding resolved{};
+    if (declaration.resources[access.resource].isImage) {
+      const bool sampling = access.usage == Usage::sampled;
+      Subresources range = access.range;
+      // A view that shaders sample has one aspect.
+      if (sampling && (range.aspects & VK_IMAGE_ASPECT_DEPTH_BIT) != 0) range.aspects = VK_IMAGE_ASPECT_DEPTH_BIT;
+      resolved.kind = sampling ? Binding::Kind::sampledImage : Binding::Kind::storageImage;
+      resolved.view = frame_->viewOf(access.resource, range, binding.viewType);
+      resolved.layout = access.layout;
+      resolved.sampler = binding.sampler;
+    } else {
+      resolved.kind = access.usage == Usage::uniform ? Binding::Kind::uniformBuffer : Binding::Kind::storageBuffer;
+      resolved.buffer = frame_->objects[access.resource].buffer;
+    }
+    state_.bindings.push_back(resolved);
+  }
+  const bool isIndirect = dispatch.indirect != kNone;
+  frame_->backend.dispatch(state_.commands,
+                           {.program = *dispatch.program,
+                            .bindings = state_.bindings,
+                            .pushConstants = dispatch.pushConstants,
+                            .specialization = dispatch.specialization,
+                            .groups = dispatch.groups,
+                            .indirect = isIndirect ? frame_->objects[dispatch.indirect].buffer : VK_NULL_HANDLE,
+                            .indirectOffset = dispatch.indirectOffset});
+}
+
 void StepRecorder::runRecording(uint32_t step) {
   const PlannedPass& planned = frame_->plan->passes[step];
   const DeclaredPass& pass = frame_->declared(planned);
+  if (pass.dispatch != nullptr) return recordDispatch(*pass.dispatch);
   if (pass.recorder == nullptr) return;
   state_.planned = &planned;
   PassContext context(state_, planned.pass);

@@ -33,6 +33,7 @@ class StepRecorder {
   void beginRendering(const PlannedPass& planned);
   VkRenderingAttachmentInfo attachmentInfo(const PlannedAttachment& attachment, const VkClearValue& clear);
   void runRecording(uint32_t step);
+  void recordDispatch(const DeclaredDispatch& dispatch);
   void stamp(uint32_t step, uint32_t end);
   void noteRecording(uint32_t step, double startMs);
   /// Valid until the next call.

@@ -244,13 +244,33 @@ TEST(ComputePass, UnknownHandlesThrowAtTheCall) {
   EXPECT_EQ(error->problems()[0].pass, "pass");
 }
 
-TEST(ComputePass, AStorageImageOfSeveralMipsIsRefused) {
+TEST(ComputePass, AViewThatNoShaderCanHaveIsRefused) {
   OnePass one;
-  compute(one.graph, "pass", kProgram).modify(one.image).groups({});
-  const auto error = errorOf([&] { one.executor.execute(one.graph); });
+  const Image layers =
+      one.graph.persistentImage("layers", {.format = kDesc.format, .width = 8, .height = 8, .layers = 2});
+  auto pass = compute(one.graph, "pass", kProgram);
+  const uint32_t line = __LINE__ + 1;
+  pass.modify(one.image);
+  pass.read(layers).read(one.first).groups({});
+  const auto error = errorOfCompile(one.graph);
   ASSERT_TRUE(error);
-  EXPECT_EQ(error->misuse(), Misuse::subresourceRange);
+  ASSERT_EQ(error->problems().size(), 2u);
+  for (const GraphError::Problem& problem : error->problems()) EXPECT_EQ(problem.misuse, Misuse::subresourceRange);
+  EXPECT_EQ(error->problems()[0].resource, "image");
+  EXPECT_EQ(error->problems()[0].where.line(), line);
   EXPECT_THAT(error->what(), HasSubstr("name one mip"));
+  EXPECT_EQ(error->problems()[1].resource, "layers");
+  EXPECT_THAT(error->what(), HasSubstr("2D_ARRAY"));
+}
+
+TEST(ComputePass, SamplesTheDepthOfADepthStencilImage) {
+  OnePass one;
+  const Image depth =
+      one.graph.persistentImage("depth", {.format = VK_FORMAT_D32_SFLOAT_S8_UINT, .width = 8, .height = 8});
+  compute(one.graph, "pass", kProgram).sample(depth, kNearest).modify(one.first).groups({});
+  one.executor.execute(one.graph);
+  EXPECT_EQ(one.backend.bindings[0].layout, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+  EXPECT_EQ(one.backend.countLiving("view"), 1u);
 }
 
 TEST(ComputePass, LeftOutByItsConditionKeepsTheContentFromBefore) {
