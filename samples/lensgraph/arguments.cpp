@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "engine/error.h"
-#include "generated/version.h"
 #include "passes/parameters.h"
 #include "samples/host/shot.h"
 #include "samples/lensgraph/subcommands.h"
+#include "samples/lensgraph/version.h"
 
 namespace lensgraph::cli {
 namespace {

@@ -1,4 +1,4 @@
-# Writes version.h. Run at build time with -DSOURCE, -DVERSION, -DOUTPUT; the commit is empty outside a git checkout.
+# Writes version.cpp. Run at build time with -DSOURCE, -DVERSION, -DOUTPUT; the commit is empty outside a git checkout.
 set(COMMIT "")
 find_program(GIT git)
 if(GIT AND EXISTS ${SOURCE}/.git)
@@ -7,11 +7,10 @@ if(GIT AND EXISTS ${SOURCE}/.git)
 endif()
 file(CONFIGURE OUTPUT ${OUTPUT} @ONLY CONTENT [[
 // Written by version.cmake.
-#pragma once
+#include "samples/lensgraph/version.h"
 
 namespace lensgraph::cli {
-inline constexpr const char* kVersion = "@VERSION@";
-/// Abbreviated, with "-dirty" when the tree had changes; empty when built outside a git checkout.
-inline constexpr const char* kCommit = "@COMMIT@";
+const char* const kVersion = "@VERSION@";
+const char* const kCommit = "@COMMIT@";
 }  // namespace lensgraph::cli
 ]])

@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "generated/version.h"
 #include "passes/lens/physical_lens.h"
+#include "samples/lensgraph/version.h"
 
 namespace lensgraph::cli {
 

@@ -7,13 +7,13 @@
 #include "engine/error.h"
 #include "engine/image/image_io.h"
 #include "engine/image/metrics.h"
-#include "generated/version.h"
 #include "samples/lensgraph/error_map.h"
 #include "samples/lensgraph/output.h"
 #include "samples/lensgraph/pages/demo_page.h"
 #include "samples/lensgraph/progress.h"
 #include "samples/lensgraph/session.h"
 #include "samples/lensgraph/subcommands.h"
+#include "samples/lensgraph/version.h"
 
 namespace lensgraph::cli {
 namespace {
