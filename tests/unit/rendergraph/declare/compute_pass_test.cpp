@@ -27,8 +27,6 @@ namespace {
 
 const ComputeProgram kProgram{.name = "program", .shader = {}};
 const ImageDesc kDesc{.format = VK_FORMAT_R32G32B32A32_SFLOAT, .width = 64, .height = 32, .mips = 3};
-const AccessState kRead{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT,
-                        VK_IMAGE_LAYOUT_GENERAL};
 
 /// A graph with content to read, and a backend that keeps what was dispatched last.
 struct OnePass {
