@@ -269,6 +269,7 @@ TEST(ComputePass, SamplesTheDepthOfADepthStencilImage) {
   one.executor.execute(one.graph);
   EXPECT_EQ(one.backend.bindings[0].layout, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
   EXPECT_EQ(one.backend.countLiving("view"), 1u);
+  EXPECT_EQ(one.backend.viewedAspects, VkImageAspectFlags{VK_IMAGE_ASPECT_DEPTH_BIT});
 }
 
 TEST(ComputePass, LeftOutByItsConditionKeepsTheContentFromBefore) {

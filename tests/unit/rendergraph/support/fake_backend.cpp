@@ -184,6 +184,7 @@ rendergraph::DedicatedBuffer FakeBackend::createDedicatedBuffer(const rendergrap
 VkImageView FakeBackend::createView(const rendergraph::ViewDesc& desc, std::string_view name) {
   const uint64_t view = create("view " + std::string(name));
   viewed[view] = idOf(desc.image);
+  viewedAspects = desc.range.aspects;
   return as<VkImageView>(view);
 }
 

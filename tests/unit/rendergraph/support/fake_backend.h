@@ -33,6 +33,7 @@ class FakeBackend : public rendergraph::Backend {
   Dispatched dispatched;
   std::map<uint64_t, std::string> living;  ///< Objects that were made and not destroyed, by id.
   std::map<uint64_t, uint64_t> viewed;     ///< View to image.
+  VkImageAspectFlags viewedAspects = 0;    ///< Of the latest view.
   std::set<uint64_t> concurrent;           ///< Images and buffers with that sharing mode.
   std::vector<std::string> mistakes;       ///< What no backend should be asked for.
   uint32_t creations = 0;
