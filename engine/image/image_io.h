@@ -34,9 +34,9 @@ FloatImage readDepth(const std::filesystem::path& path);
 
 /// Writes a picture; the extension chooses the format: .exr, .png (8 bit) or .hdr, in any case of letters.
 /// 1 channel: EXR channel Z, grey PNG, HDR with three equal channels; 3: RGB; 4: RGBA (HDR has no alpha and
-/// drops it). PNG: NaN becomes 0. The file appears whole or not at all: it is written beside its place and
-/// then renamed. Throws Error: unknown extension, destination that cannot be written, picture without pixels
-/// or with 2 or 5+ channels.
+/// drops it). PNG: NaN becomes 0. The file appears whole or not at all, as engine/files/output_file.h says.
+/// Throws Error: unknown extension, destination that cannot be written, picture without pixels or with 2 or 5+
+/// channels; of kind failed where the disk is full.
 void writeImage(const std::filesystem::path& path, const FloatImage& image, const ImageWriteOptions& options = {});
 
 }  // namespace lensgraph::engine

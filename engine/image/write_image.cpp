@@ -2,19 +2,21 @@
 //
 // OpenImageIO is asked for raw values: alpha is never multiplied for us (oiio:UnassociatedAlpha) and no colour space is
 // converted; sRGB and premultiplication are done here, in linear light, where OpenImageIO would do them encoded.
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <memory>
+#include <span>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "engine/error.h"
+#include "engine/files/output_file.h"
 #include "engine/image/image_format.h"
 #include "engine/image/image_io.h"
 #include "engine/image/metrics.h"
@@ -24,33 +26,36 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A file beside the destination that disappears unless it is renamed into place.
-class TemporaryFile {
+// What OpenImageIO writes to instead of a file of its own, whose errors it partly ignores: a full disk would show only as
+// a picture that is too short. Never reports an error to it either, because libpng would print one on stderr; the first
+// failure is kept, and nothing is written after it.
+class OutputProxy : public OIIO::Filesystem::IOProxy {
  public:
-  explicit TemporaryFile(const fs::path& destination) : destination_(destination) {
-    static std::atomic<unsigned> counter{0};
-    // Hidden and unique to the process; the extension stays, because it chooses the format.
-    path_ = destination.parent_path() / ("." + destination.stem().string() + "." + std::to_string(::getpid()) + "-" +
-                                         std::to_string(counter++) + ".tmp" + destination.extension().string());
+  explicit OutputProxy(OutputFile& file) : IOProxy("", Write), file_(file) {}
+  const char* proxytype() const override { return "lensgraph output"; }
+  size_t write(const void* bytes, size_t count) override {
+    pwrite(bytes, count, m_pos);
+    m_pos += static_cast<int64_t>(count);
+    return count;
   }
-  ~TemporaryFile() {
-    std::error_code ignored;
-    if (!isPlaced_) fs::remove(path_, ignored);
+  size_t pwrite(const void* bytes, size_t count, int64_t offset) override {
+    if (failure_) return count;
+    try {
+      file_.write(std::span(static_cast<const std::byte*>(bytes), count), static_cast<uint64_t>(offset));
+    } catch (...) {
+      failure_ = std::current_exception();
+    }
+    return count;
   }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  size_t size() const override { return file_.size(); }
 
-  const fs::path& path() const { return path_; }
-  void place() {
-    std::error_code error;
-    fs::rename(path_, destination_, error);
-    if (error) failImage(destination_, "cannot be written: " + error.message(), "choose another file");
-    isPlaced_ = true;
+  void rethrowFailure() const {
+    if (failure_) std::rethrow_exception(failure_);
   }
 
  private:
-  fs::path destination_, path_;
-  bool isPlaced_ = false;
+  OutputFile& file_;
+  std::exception_ptr failure_;
 };
 
 std::vector<uint8_t> encodePng(const FloatImage& image, double exposureEv) {
@@ -84,22 +89,26 @@ std::vector<float> rgbSamples(const FloatImage& image) {
   return rgb;
 }
 
+[[noreturn]] void failEncoding(const fs::path& destination, const std::string& problem) {
+  // OpenImageIO gives no reason where it cannot make its threads.
+  failImage(destination, "encoding failed: " + (problem.empty() ? "memory or threads are short" : problem), {},
+            ErrorKind::failed);
+}
+
 void writeSamples(const fs::path& destination, const OIIO::ImageSpec& spec, OIIO::TypeDesc type, const void* samples) {
-  TemporaryFile temporary(destination);
-  const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(temporary.path().string());
-  if (!output) failImage(destination, "cannot be written: " + OIIO::geterror());
-  if (!output->open(temporary.path().string(), spec)) {
-    failImage(destination, "cannot be written: " + output->geterror(),
-              "choose a folder that exists and can be written to");
-  }
-  const bool isWritten = output->write_image(type, samples);
-  const std::string problem = isWritten ? "" : output->geterror();
-  // A full disk often shows only when the last buffer is flushed.
-  if (!output->close() || !isWritten) {
-    failImage(destination, "writing failed: " + (problem.empty() ? output->geterror() : problem), {},
-              ErrorKind::failed);
-  }
-  temporary.place();
+  OutputFile file(destination);
+  OutputProxy proxy(file);
+  // Of the name only the extension counts, which chooses the format.
+  const std::string name = "x" + destination.extension().string();
+  const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(name);
+  if (!output) failEncoding(destination, OIIO::geterror());
+  const bool isWritten = output->set_ioproxy(&proxy) && output->open(name, spec) && output->write_image(type, samples);
+  std::string problem = isWritten ? "" : output->geterror();
+  // PNG files end only here; the proxy must still be there.
+  const bool isClosed = output->close();
+  proxy.rethrowFailure();
+  if (!isWritten || !isClosed) failEncoding(destination, problem.empty() ? output->geterror() : problem);
+  file.place();
 }
 
 }  // namespace
@@ -110,9 +119,6 @@ void writeImage(const fs::path& path, const FloatImage& image, const ImageWriteO
   if (image.channels != 1 && image.channels != 3 && image.channels != 4) {
     failImage(path, "a picture of " + std::to_string(image.channels) + " channels cannot be written", "use 1, 3 or 4");
   }
-  std::error_code error;
-  if (fs::is_directory(path, error)) failImage(path, "is a folder, not a file", "add a file name");
-
   const int width = static_cast<int>(image.width), height = static_cast<int>(image.height);
   const int channels = static_cast<int>(image.channels);
   switch (format) {

@@ -12,6 +12,7 @@
 
 #include "engine/error.h"
 #include "rendergraph/error.h"
+#include "samples/lensgraph/process.h"
 #include "samples/lensgraph/subcommands.h"
 
 using namespace lensgraph;
@@ -59,6 +60,7 @@ int guardedRun(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  cli::setUpProcess();
   setUpLogging();
   return guardedRun(argc, argv);
 }

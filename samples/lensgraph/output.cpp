@@ -1,18 +1,14 @@
 // Checking and writing of files: see output.h.
 #include "samples/lensgraph/output.h"
 
-#include <fcntl.h>
 #include <spdlog/spdlog.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <iostream>
 
 #include "engine/error.h"
+#include "engine/files/output_file.h"
 
 namespace lensgraph::cli {
 namespace {
@@ -24,12 +20,6 @@ std::string lowerExtension(const path& file) {
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return extension;
-}
-
-path besides(const path& file) {
-  path temporary = file;
-  temporary += ".part-" + std::to_string(getpid());
-  return temporary;
 }
 
 void checkExtension(const path& file, std::string_view option, std::span<const std::string_view> extensions) {
@@ -46,23 +36,8 @@ void checkExtension(const path& file, std::string_view option, std::span<const s
 }  // namespace
 
 void checkOutput(const path& file, std::string_view option, std::span<const std::string_view> extensions) {
-  const auto fail = [&](const std::string& reason, const std::string& remedy) {
-    throw engine::Error({.file = file.string(), .field = std::string(option), .reason = reason, .remedy = remedy});
-  };
-  if (file.empty()) fail("is empty", "name a file");
-  checkExtension(file, option, extensions);
-  std::error_code code;
-  if (std::filesystem::is_directory(file, code)) fail("is a folder", "name a file in it");
-  const path folder = file.has_parent_path() ? file.parent_path() : path(".");
-  if (!std::filesystem::is_directory(folder, code)) {
-    fail("cannot be written: no such folder: " + folder.string(), "make the folder first");
-  }
-  // Asked by doing it: permissions, read-only file systems and full name tables all answer here.
-  const path probe = besides(file);
-  const int descriptor = ::open(probe.c_str(), O_CREAT | O_EXCL | O_WRONLY, 0600);
-  if (descriptor < 0) fail(std::string("cannot be written: ") + std::strerror(errno), "choose another place");
-  ::close(descriptor);
-  ::unlink(probe.c_str());
+  if (!file.empty()) checkExtension(file, option, extensions);
+  engine::requireWritable(file, std::string(option));
 }
 
 void requireDistinct(std::span<const OutputFile> files) {
@@ -88,18 +63,7 @@ void writeTextFile(const path& file, std::string_view text) {
     std::cout << text;
     return;
   }
-  const path temporary = besides(file);
-  std::ofstream stream(temporary, std::ios::binary);
-  stream << text;
-  stream.close();
-  std::error_code code;
-  if (stream) std::filesystem::rename(temporary, file, code);
-  if (!stream || code) {
-    const std::string reason = code ? code.message() : std::strerror(errno);
-    std::filesystem::remove(temporary, code);
-    throw engine::Error({.file = file.string(), .field = {}, .reason = "cannot be written: " + reason, .remedy = {}},
-                        engine::ErrorKind::failed);
-  }
+  engine::writeFile(file, text);
 }
 
 }  // namespace lensgraph::cli

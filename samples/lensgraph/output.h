@@ -8,9 +8,8 @@
 
 namespace lensgraph::cli {
 
-/// Throws engine::Error (bad input) unless the file could be written: its folder is there and takes files,
-/// and the path is no folder. `extensions`: those allowed, lower case with the dot; empty allows any. Leaves
-/// nothing behind.
+/// Throws engine::Error unless the file could be written, as engine::requireWritable() says. `extensions`: those
+/// allowed, lower case with the dot; empty allows any. Leaves nothing behind.
 void checkOutput(const std::filesystem::path& file, std::string_view option,
                  std::span<const std::string_view> extensions = {});
 
@@ -31,7 +30,7 @@ inline constexpr std::string_view kDumpExtensions[] = {".exr", ".png"};
 /// Warns when an exposure is asked for although the format keeps scene light.
 void warnUnusedExposure(const std::filesystem::path& output);
 
-/// Writes beside the place and renames. "-" is stdout. Throws engine::Error (failed).
+/// As engine::writeFile(). "-" is stdout.
 void writeTextFile(const std::filesystem::path& file, std::string_view text);
 
 }  // namespace lensgraph::cli

@@ -19,11 +19,6 @@ namespace {
 using nlohmann::json;
 using std::filesystem::path;
 
-std::string contentOf(const path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 /// Every file below a folder.
 std::set<std::string> listing(const path& folder) {
   std::set<std::string> names;
@@ -90,7 +85,12 @@ json quadJson(const QuadOptions& options) {
 
 }  // namespace
 
-Outcome run(const path& folder, const std::vector<std::string>& arguments) {
+std::string contentOf(const path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+Outcome run(const path& folder, const std::vector<std::string>& arguments, const std::function<bool()>& prepare) {
   // Beside the folder, so that the program's own files are all that appear in it.
   const path outFile = folder.string() + ".out", errFile = folder.string() + ".err";
   std::vector<char*> argv = {const_cast<char*>(LENSGRAPH_PROGRAM)};
@@ -101,6 +101,7 @@ Outcome run(const path& folder, const std::vector<std::string>& arguments) {
     const int out = open(outFile.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600);
     const int err = open(errFile.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600);
     if (out < 0 || err < 0 || dup2(out, 1) < 0 || dup2(err, 2) < 0 || chdir(folder.c_str()) != 0) _exit(127);
+    if (prepare && !prepare()) _exit(126);
     execv(argv[0], argv.data());
     _exit(127);
   }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -15,8 +16,12 @@ struct Outcome {
   std::string out, err;
 };
 
-/// Runs `lensgraph arguments…` in `folder`, its stdout and stderr going to files (so: no terminal).
-Outcome run(const std::filesystem::path& folder, const std::vector<std::string>& arguments);
+/// Runs `lensgraph arguments…` in `folder`, its stdout and stderr going to files (so: no terminal). `prepare` is called
+/// in the new process before the program takes its place; false makes the status 126.
+Outcome run(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
+            const std::function<bool()>& prepare = {});
+
+std::string contentOf(const std::filesystem::path& file);
 
 /// A quad that faces the camera, and what may be wrong with it.
 struct QuadOptions {
@@ -41,7 +46,9 @@ class ProgramTest : public testing::Test {
   nlohmann::json shot() const;
   void writeShot(const nlohmann::json& shot) const { write("shot.json", shot.dump(1)); }
 
-  Outcome run(const std::vector<std::string>& arguments) const { return cli_test::run(folder_, arguments); }
+  Outcome run(const std::vector<std::string>& arguments, const std::function<bool()>& prepare = {}) const {
+    return cli_test::run(folder_, arguments, prepare);
+  }
   /// Status 0 and nothing on stderr; returns stdout.
   std::string runWell(const std::vector<std::string>& arguments) const;
   /// That status, one line on stderr that holds every part, nothing on stdout, and no file more than before.

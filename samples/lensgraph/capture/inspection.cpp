@@ -51,7 +51,9 @@ host::Rendering Inspection::render(const engine::DeviceDescription& device, host
 void Inspection::write(const engine::DeviceDescription& device, const CaptureInput& input,
                        const host::TechniqueChoice& choice, const host::Rendering& rendering) const {
   if (arguments_.capture) {
-    writeTextFile(*arguments_.capture, captureJson(device, input, choice, rendering, *measurement_).dump(2) + "\n");
+    writeTextFile(*arguments_.capture, captureJson(device, input, choice, rendering, *measurement_)
+                                               .dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
+                                           "\n");
   }
   if (arguments_.trace) {
     std::ostringstream text;
