@@ -1,7 +1,8 @@
 // Files that appear whole or not at all: written beside their place, checked to the last byte, then renamed.
 //
 // Whatever goes wrong in between (a full disk, a file size limit, an exception), the file that was there before stays
-// as it was, and nothing is left beside it. Where a signal ends the process, removeUnfinishedFiles() does the same.
+// as it was, and nothing is left beside it. Where a signal ends the process, removeUnfinishedFiles()
+// in unfinished_files.h does the same.
 #pragma once
 
 #include <cstddef>
@@ -54,9 +55,5 @@ class OutputFile {
 
 /// An OutputFile with that content. Throws as OutputFile does.
 void writeFile(const std::filesystem::path& destination, std::string_view content);
-
-/// Removes the temporary files of every OutputFile of the process that is not placed. Only for a process that ends
-/// now: may be called in a signal handler, and the OutputFiles fail afterwards.
-void removeUnfinishedFiles() noexcept;
 
 }  // namespace lensgraph::engine

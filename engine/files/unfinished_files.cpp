@@ -7,8 +7,6 @@
 #include <atomic>
 #include <cstring>
 
-#include "engine/files/output_file.h"
-
 namespace lensgraph::engine {
 namespace {
 

@@ -6,7 +6,7 @@
 
 #include <csignal>
 
-#include "engine/files/output_file.h"
+#include "engine/files/unfinished_files.h"
 
 namespace lensgraph::cli {
 namespace {

@@ -11,6 +11,7 @@
 #include <future>
 
 #include "engine/error.h"
+#include "engine/files/unfinished_files.h"
 #include "engine/image/image_io.h"
 #include "temporary_folder.h"
 
