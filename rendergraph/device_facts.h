@@ -32,7 +32,11 @@ class DeviceFacts {
   virtual ~DeviceFacts() = default;
   virtual uint32_t maxImageSize() const { return 16384; }  ///< px.
   virtual uint32_t maxImageLayers() const { return 2048; }
-  virtual VkDeviceSize maxBufferSize() const { return VkDeviceSize{1} << 31; }
+  virtual VkDeviceSize maxBufferSize() const { return VkDeviceSize{1} << 31; }  ///< Bytes, of any buffer.
+  /// Bytes of a buffer that shaders read or write as storage, and of one that they read as uniform: a binding shows the
+  /// whole buffer.
+  virtual VkDeviceSize maxStorageRange() const { return maxBufferSize(); }
+  virtual VkDeviceSize maxUniformRange() const { return maxBufferSize(); }
   /// The queues that a plan may use, at least one. The first does graphics, compute and transfer; it takes what no
   /// other queue can do or nothing prefers elsewhere.
   virtual std::span<const QueueFacts> queues() const;

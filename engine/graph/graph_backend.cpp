@@ -29,7 +29,13 @@ uint32_t GraphBackend::maxImageLayers() const {
   return std::min(device_.limits().maxImageArrayLayers, device_.limits().maxFramebufferLayers);
 }
 VkDeviceSize GraphBackend::maxBufferSize() const {
+  return device_.maxBufferSize();
+}
+VkDeviceSize GraphBackend::maxStorageRange() const {
   return device_.limits().maxStorageBufferRange;
+}
+VkDeviceSize GraphBackend::maxUniformRange() const {
+  return device_.limits().maxUniformBufferRange;
 }
 
 // ---- Memory

@@ -49,6 +49,8 @@ class GraphBackend final : public rendergraph::Backend {
   uint32_t maxImageSize() const override;
   uint32_t maxImageLayers() const override;
   VkDeviceSize maxBufferSize() const override;
+  VkDeviceSize maxStorageRange() const override;
+  VkDeviceSize maxUniformRange() const override;
   std::span<const rendergraph::QueueFacts> queues() const override { return queues_; }
   rendergraph::MemoryRequirements requirements(const rendergraph::ImageDesc& desc,
                                                VkImageUsageFlags usage) const override;

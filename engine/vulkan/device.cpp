@@ -249,9 +249,11 @@ void Device::createDevice() {
     setName(VK_OBJECT_TYPE_QUEUE, reinterpret_cast<uint64_t>(queue.handle), queue.name);
   }
 
-  VkPhysicalDeviceProperties properties;
-  vk.vkGetPhysicalDeviceProperties(physical_, &properties);
-  limits_ = properties.limits;
+  VkPhysicalDeviceMaintenance4Properties maintenance4{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_PROPERTIES};
+  VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &maintenance4};
+  vk.vkGetPhysicalDeviceProperties2(physical_, &properties);
+  limits_ = properties.properties.limits;
+  maxBufferSize_ = maintenance4.maxBufferSize;
   vk.vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
 }
 

@@ -66,6 +66,7 @@ class Device {
   const DeviceFunctions& vk() const { return *functions_; }
   /// The physical device's limits and memory types, asked for once.
   const VkPhysicalDeviceLimits& limits() const { return limits_; }
+  VkDeviceSize maxBufferSize() const { return maxBufferSize_; }  ///< Bytes; larger ones may not be made.
   const VkPhysicalDeviceMemoryProperties& memory() const { return memory_; }
 
   /// Everything the validation layers have said; empty without validation. Outlives the device.
@@ -87,6 +88,7 @@ class Device {
   mutable std::mutex submission_;
   std::unique_ptr<const DeviceFunctions> functions_;
   VkPhysicalDeviceLimits limits_{};
+  VkDeviceSize maxBufferSize_ = 0;
   VkPhysicalDeviceMemoryProperties memory_{};
 };
 

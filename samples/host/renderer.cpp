@@ -8,6 +8,7 @@
 #include "engine/image/image_io.h"
 #include "passes/pinhole/pinhole.h"
 #include "rendergraph/compiler.h"
+#include "samples/host/fitting_size.h"
 #include "samples/host/read_back.h"
 #include "samples/host/renderer_state.h"
 #include "samples/host/shot_scene.h"
@@ -67,6 +68,25 @@ void keepTapped(const Graph& graph, const rendergraph::Executor& executor, const
   for (const auto& choice : rendergraph::tappableImages(graph)) {
     if (std::ranges::find(tapped.choices, choice) == tapped.choices.end()) tapped.choices.push_back(choice);
   }
+}
+
+/// Whether the frame that makes the picture could be compiled in that size, with the room that lists have now.
+bool fits(RendererState& state, const Shot& shot, PictureExtent extent, const RenderOptions& options) {
+  Shot smaller = shot;
+  smaller.width = extent.width;
+  smaller.height = extent.height;
+  Graph graph;
+  try {
+    const auto frame =
+        state.declareTechnique(graph, state.sceneInputs(smaller), techniqueOf(options), options.wantDepth);
+    state.declareReadBacks(graph, frame, true, options.wantDepth);
+    graph.finish();
+    rendergraph::compile(graph.declaration(), options.execute.compile, state.backend);
+  } catch (const rendergraph::GraphError& error) {
+    if (error.misuse() == rendergraph::Misuse::overLimit) return false;
+    throw;
+  }
+  return true;
 }
 
 std::optional<engine::Environment> loadEnvironment(const Shot& shot) {
@@ -176,14 +196,21 @@ Rendering Renderer::render(const Shot& shot, const RenderOptions& options) {
     state_->sceneDraw.listFragmentsPerPixel = options.fixedRoom->listFragments;
   }
   const double pixels = static_cast<double>(inputs.extent.width) * inputs.extent.height;
-  for (;;) {
-    auto rendering = state_->run(technique, inputs, options, [&](Graph& graph, uint32_t frame) {
-      DofInputs now = inputs;
-      now.frame = frame;
-      return state_->declareTechnique(graph, now, technique, options.wantDepth);
-    });
-    if (options.fixedRoom || !lacksRoom(rendering.statistics)) return rendering;
-    makeRoom(rendering.statistics, pixels, state_->sceneDraw);
+  try {
+    for (;;) {
+      auto rendering = state_->run(technique, inputs, options, [&](Graph& graph, uint32_t frame) {
+        DofInputs now = inputs;
+        now.frame = frame;
+        return state_->declareTechnique(graph, now, technique, options.wantDepth);
+      });
+      if (options.fixedRoom || !lacksRoom(rendering.statistics)) return rendering;
+      makeRoom(rendering.statistics, pixels, state_->sceneDraw);
+    }
+  } catch (const rendergraph::GraphError& error) {
+    if (error.misuse() != rendergraph::Misuse::overLimit) throw;
+    const PictureExtent wanted{shot.width, shot.height};
+    throw tooLarge(wanted, options.technique, error,
+                   largestFitting(wanted, [&](PictureExtent extent) { return fits(*state_, shot, extent, options); }));
   }
 }
 

@@ -234,6 +234,12 @@ TEST_F(BadInput, AnUnknownDeviceIsRefused) {
   expectRefused({"render", "shot.json", "--device", "99", "-o", "out.exr"}, {"99"});
 }
 
+TEST_F(BadInput, APictureThatTheDeviceCannotHoldIsRefusedWithTheSizeThatFits) {
+  expectRefused(
+      {"render", "shot.json", "--technique", "multilayer_filtering", "--size", "16384x16384", "-o", "out.exr"},
+      {"resolution: 16384x16384 px is more than this device takes for multilayer_filtering", "up to ", " px fits"});
+}
+
 }  // namespace
 
 }  // namespace lensgraph

@@ -33,6 +33,27 @@ void checkLimits(const Declaration& declaration, const DeviceFacts& device, Prob
   }
 }
 
+/// Buffers may be larger than what a shader can see of one. Each buffer is reported once, with the first pass that binds
+/// too much of it.
+void checkBoundRanges(const Declaration& declaration, const DeviceFacts& device, Problems& problems) {
+  std::vector<uint8_t> reported(declaration.resources.size(), 0);
+  for (const DeclaredAccess& access : declaration.accesses) {
+    const DeclaredResource& resource = declaration.resources[access.resource];
+    const bool isUniform = access.usage == Usage::uniform;
+    if (resource.isImage || reported[access.resource] || !(isUniform || access.usage == Usage::storage)) continue;
+    const VkDeviceSize limit = isUniform ? device.maxUniformRange() : device.maxStorageRange();
+    const VkDeviceSize size = resource.buffer.size;
+    // The size itself is reported as a buffer's.
+    if (size <= limit || size > device.maxBufferSize()) continue;
+    reported[access.resource] = 1;
+    problems.push_back(declaration.problem(Misuse::overLimit, access.pass, access.resource,
+                                           std::string("it is bound as ") + (isUniform ? "uniform" : "storage") +
+                                               " buffer, and its size of " + std::to_string(size) +
+                                               " is over what the device can bind",
+                                           "stay within " + std::to_string(limit) + ", or split it", access.where));
+  }
+}
+
 bool hasContent(const DeclaredResource& resource) {
   if (resource.imported()) return !resource.isImage || resource.before.layout != VK_IMAGE_LAYOUT_UNDEFINED;
   return resource.persistent();
@@ -98,6 +119,7 @@ std::vector<GraphError::Problem> findProblems(const Declaration& declaration, co
   checkContent(declaration, cells, problems);
   checkPasses(declaration, problems);
   checkLimits(declaration, device, problems);
+  checkBoundRanges(declaration, device, problems);
   return problems;
 }
 

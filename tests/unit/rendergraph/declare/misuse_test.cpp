@@ -305,6 +305,39 @@ TEST(Misuse, OverLimit) {
   expectProblem(Misuse::overLimit, "", "none", "one byte", [&](Graph& graph) { graph.createBuffer("none", {}); });
 }
 
+/// A device that binds less of a buffer than it can make.
+class NarrowBindings : public NominalDevice {
+ public:
+  VkDeviceSize maxStorageRange() const override { return 1024; }
+  VkDeviceSize maxUniformRange() const override { return 256; }
+};
+
+TEST(Misuse, OnlyWhatIsBoundMustFitABinding) {
+  const auto problemOf = [](VkDeviceSize size, Usage usage, bool isCopied) -> std::string {
+    Graph graph;
+    Buffer buffer = graph.createBuffer("buffer", {.size = size});
+    if (isCopied) {
+      Pass fill = graph.addPass("fill", PassKind::transfer);
+      buffer = fill.write(buffer, Usage::transferDestination);
+    }
+    Pass pass = graph.addPass("pass", PassKind::compute);
+    if (usage == Usage::uniform) pass.read(buffer, usage);
+    if (usage == Usage::storage) graph.exportBuffer(pass.write(buffer, usage), {});
+    try {
+      compile(graph.declaration(), {}, NarrowBindings());
+    } catch (const GraphError& error) {
+      EXPECT_EQ(error.misuse(), Misuse::overLimit);
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(problemOf(1024, Usage::storage, false), "");
+  EXPECT_THAT(problemOf(1025, Usage::storage, false), HasSubstr("bound as storage buffer, and its size of 1025"));
+  EXPECT_EQ(problemOf(256, Usage::uniform, true), "");
+  EXPECT_THAT(problemOf(257, Usage::uniform, true), HasSubstr("stay within 256"));
+  EXPECT_EQ(problemOf(VkDeviceSize{1} << 30, Usage::transferSource, true), "") << "copied, never bound";
+}
+
 TEST(Misuse, ImportState) {
   expectProblem(Misuse::importState, "pass", "target", "layout in which the host left it", [](Graph& graph) {
     const Image target = graph.importImage("target", kColor, {.usage = VK_IMAGE_USAGE_SAMPLED_BIT});
