@@ -52,6 +52,12 @@ struct Technique {
   std::string_view source;  ///< Paper.
   TechniqueInput input = TechniqueInput::image;
   std::vector<ParameterInfo> parameters;
+  /// Fields of passes::Lens that change nothing in its picture, so that hosts can say so. The pinhole has no lens and
+  /// lists none.
+  std::span<const std::string_view> ignoredLensFields;
+  /// Those of which only the size of the blur follows, not its shape.
+  std::span<const std::string_view> sizeOnlyLensFields;
+  std::string_view blurLimit;  ///< The parameter that limits blur radii in px, beside Lens::maxCocRadius; empty: none.
   QuickSettings quick;
 
   /// The technique with these parameters; absent ones take their defaults. Precondition: check() of the set against
@@ -64,7 +70,10 @@ template <class Parameters>
 struct TechniqueDescription {
   std::string_view name, title, source;
   TechniqueInput input = TechniqueInput::image;
-  std::span<const Field<Parameters>> fields = {};  ///< Of static storage duration.
+  std::span<const Field<Parameters>> fields = {};             ///< Of static storage duration.
+  std::span<const std::string_view> ignoredLensFields = {};   ///< Likewise. See Technique.
+  std::span<const std::string_view> sizeOnlyLensFields = {};  ///< Likewise.
+  std::string_view blurLimit = {};                            ///< See Technique.
   DofOutputs (*declare)(rendergraph::Graph& graph, const DofInputs& inputs, const Parameters& parameters) = nullptr;
   /// Problems beyond those of checkInputs() and of single parameters; null: none.
   std::vector<Problem> (*validate)(const Parameters& parameters, const DofInputs& inputs) = nullptr;
@@ -110,6 +119,9 @@ Technique makeTechnique(const TechniqueDescription<Parameters>& description) {
           .source = description.source,
           .input = description.input,
           .parameters = describe<Parameters>(description.fields),
+          .ignoredLensFields = description.ignoredLensFields,
+          .sizeOnlyLensFields = description.sizeOnlyLensFields,
+          .blurLimit = description.blurLimit,
           .quick = {.parameters = toSet<Parameters>(description.quick, description.fields),
                     .pixelSamples = description.quickPixelSamples},
           .configure = [description](const ParameterSet& set) -> std::unique_ptr<ConfiguredTechnique> {

@@ -54,6 +54,12 @@ DofOutputs declare(rendergraph::Graph& graph, const DofInputs& inputs, const Par
   return declareViewMean(graph, own, meanOf(parameters, own.aperture));
 }
 
+namespace {
+
+constexpr std::string_view kIgnoredLensFields[] = {"maxCocRadius"};  // Every view is a true one.
+
+}  // namespace
+
 Technique technique() {
   return makeTechnique<Parameters>(
       {.name = "accumulation",
@@ -61,6 +67,7 @@ Technique technique() {
        .source = "Haeberli & Akeley 1990, The accumulation buffer; Cook 1984, Distributed ray tracing",
        .input = TechniqueInput::scene,
        .fields = fields(),
+       .ignoredLensFields = kIgnoredLensFields,
        .declare = declare,
        .frameCount = frameCount,
        .quick = {.lensSamples = 16},

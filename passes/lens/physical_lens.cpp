@@ -80,6 +80,22 @@ std::vector<LensProblem> validate(const Lens& lens) {
   return std::move(rules.problems);
 }
 
+std::vector<std::string_view> shapingFields(const Lens& lens) {
+  const Lens plain;
+  std::vector<std::string_view> fields;
+  const auto add = [&](auto Lens::*member, std::string_view name) {
+    if (lens.*member != plain.*member) fields.push_back(name);
+  };
+  add(&Lens::bladeCount, "bladeCount");
+  add(&Lens::bladeRotation, "bladeRotation");
+  add(&Lens::bladeCurvature, "bladeCurvature");
+  add(&Lens::anamorphicRatio, "anamorphicRatio");
+  add(&Lens::opticalVignetting, "opticalVignetting");
+  add(&Lens::sphericalAberration, "sphericalAberration");
+  add(&Lens::maxCocRadius, "maxCocRadius");
+  return fields;
+}
+
 double apertureRadius(const Lens& lens) {
   if (lens.apertureRadius >= 0.0) return lens.apertureRadius;
   return lens.fStop == 0.0 ? 0.0 : focalLength(lens) / (2.0 * lens.fStop);

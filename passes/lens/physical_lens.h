@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "shaders/shared/aperture.h"
@@ -40,6 +41,10 @@ struct LensProblem {
   std::string field, reason, remedy;
 };
 std::vector<LensProblem> validate(const Lens& lens);
+
+/// The fields that shape or limit the blur beyond its size (blades, anamorphicRatio, opticalVignetting,
+/// sphericalAberration, maxCocRadius) and differ from their defaults, by name.
+std::vector<std::string_view> shapingFields(const Lens& lens);
 
 /// S in px: half the image height over tan(fovy/2), or u_f·height/sensorHeight when the lens breathes.
 /// Preconditions: validate() found nothing; 0 < fovyRadians < π.

@@ -127,6 +127,15 @@ DofOutputs declare(rendergraph::Graph& graph, const DofInputs& inputs, const Par
   return out;
 }
 
+namespace {
+
+// Blurs have the aperture's second moment, which the others do not change.
+constexpr std::string_view kIgnoredLensFields[] = {"bladeRotation", "opticalVignetting"};
+constexpr std::string_view kSizeOnlyLensFields[] = {"bladeCount", "bladeCurvature", "anamorphicRatio",
+                                                    "sphericalAberration"};
+
+}  // namespace
+
 Technique technique() {
   return makeTechnique<Parameters>(
       {.name = "multilayer_filtering",
@@ -135,6 +144,8 @@ Technique technique() {
            "Selgrad, Reintges, Penk, Wagner, Stamminger 2015, Real-time Depth of Field using Multi-Layer Filtering",
        .input = TechniqueInput::scene,
        .fields = fields(),
+       .ignoredLensFields = kIgnoredLensFields,
+       .sizeOnlyLensFields = kSizeOnlyLensFields,
        .declare = declare,
        .quick = {.antialiasing = Antialiasing::points2x2},
        .quickPixelSamples = 4});

@@ -170,6 +170,12 @@ DofOutputs declare(rendergraph::Graph& graph, const DofInputs& inputs, const Par
   return out;
 }
 
+namespace {
+
+constexpr std::string_view kIgnoredLensFields[] = {"maxCocRadius"};  // Every view is a true one.
+
+}  // namespace
+
 Technique technique() {
   return makeTechnique<Parameters>(
       {.name = "multiview_synthesis",
@@ -177,6 +183,7 @@ Technique technique() {
        .source = "Lee, Eisemann, Seidel 2009, Depth-of-Field Rendering with Multiview Synthesis",
        .input = TechniqueInput::scene,
        .fields = fields(),
+       .ignoredLensFields = kIgnoredLensFields,
        .declare = declare,
        .validate = validate,
        .quick = {.views = 4},

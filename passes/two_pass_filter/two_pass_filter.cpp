@@ -162,6 +162,14 @@ DofOutputs declare(Graph& graph, const DofInputs& inputs, const Parameters& para
   return outputs;
 }
 
+namespace {
+
+// The filter's shape is its own.
+constexpr std::string_view kIgnoredLensFields[] = {"bladeCount",      "bladeRotation",     "bladeCurvature",
+                                                   "anamorphicRatio", "opticalVignetting", "sphericalAberration"};
+
+}  // namespace
+
 Technique technique() {
   return makeTechnique<Parameters>(
       {.name = "two_pass_filter",
@@ -169,6 +177,8 @@ Technique technique() {
        .source = "Zhou, Chen, Pullen 2007, Accurate Depth of Field Simulation in Real Time",
        .input = TechniqueInput::image,
        .fields = fields(),
+       .ignoredLensFields = kIgnoredLensFields,
+       .blurLimit = "maxRadius",
        .declare = declare});
 }
 

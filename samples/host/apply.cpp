@@ -12,6 +12,7 @@
 #include "samples/host/renderer_state.h"
 #include "samples/host/shot_scene.h"
 #include "samples/host/texels.h"
+#include "samples/host/warnings.h"
 
 namespace lensgraph::host {
 
@@ -87,6 +88,10 @@ Rendering Renderer::apply(const engine::FloatImage& color, const engine::FloatIm
     return state_->declareTechnique(graph, now, technique, options.wantDepth);
   });
   rendering.statistics.replacedTexels += replaced;
+  if (const auto warning = limitedBlurWarning(rendering.statistics.clampedCoc, lens, technique.entry,
+                                              options.parameters, static_cast<int>(color.height))) {
+    rendering.warnings.push_back(*warning);
+  }
   return rendering;
 }
 

@@ -49,6 +49,7 @@ DofInputs RendererState::sceneInputs(const Shot& shot) {
   const engine::LensOpening opening{passes::apertureRadius(shot.lens) * shared::apertureReach(inputs.aperture),
                                     inputs.lens.focusVergence};
   const auto range = engine::visibleRange(*scene, camera, width, height, opening, shot.lens.metersPerUnit);
+  nothingIsVisible = range.isEmpty;
   sceneDraw.nearestVergence = range.isEmpty ? 0.0f : static_cast<float>(1.0 / range.nearestDepth);
   occupied.clear();
   for (const auto& span : range.spans) {

@@ -14,6 +14,7 @@
 #include "samples/host/shot_scene.h"
 #include "samples/host/technique_choice.h"
 #include "samples/host/texels.h"
+#include "samples/host/warnings.h"
 
 namespace lensgraph::host {
 namespace {
@@ -109,6 +110,7 @@ Renderer::Renderer(engine::Device& device, const Shot& shot, std::vector<std::st
 Renderer::Renderer(engine::Device& device, engine::Scene scene, const std::optional<engine::Environment>& environment)
     : state_(std::make_unique<RendererState>(device)) {
   state_->scene = std::move(scene);
+  state_->hasEnvironment = environment.has_value();
   state_->renderer = std::make_unique<engine::SceneRenderer>(state_->backend, *state_->scene, environment);
 }
 
@@ -203,7 +205,10 @@ Rendering Renderer::render(const Shot& shot, const RenderOptions& options) {
         now.frame = frame;
         return state_->declareTechnique(graph, now, technique, options.wantDepth);
       });
-      if (options.fixedRoom || !lacksRoom(rendering.statistics)) return rendering;
+      if (options.fixedRoom || !lacksRoom(rendering.statistics)) {
+        rendering.warnings = state_->warningsOf(shot, technique.entry, options.parameters, rendering.statistics);
+        return rendering;
+      }
       makeRoom(rendering.statistics, pixels, state_->sceneDraw);
     }
   } catch (const rendergraph::GraphError& error) {
@@ -212,6 +217,20 @@ Rendering Renderer::render(const Shot& shot, const RenderOptions& options) {
     throw tooLarge(wanted, options.technique, error,
                    largestFitting(wanted, [&](PictureExtent extent) { return fits(*state_, shot, extent, options); }));
   }
+}
+
+std::vector<std::string> RendererState::warningsOf(const Shot& shot, const passes::Technique& technique,
+                                                   const passes::ParameterSet& parameters,
+                                                   const shared::FrameStatistics& statistics) const {
+  std::vector<std::string> warnings;
+  const auto add = [&](const std::optional<std::string>& warning) {
+    if (warning) warnings.push_back(*warning);
+  };
+  add(ignoredLensWarning(shot.lens, technique));
+  if (nothingIsVisible) add(invisibleSceneWarning(*scene, shotCamera(shot, *scene), shot.lens.metersPerUnit));
+  if (shot.shading == Shading::lit) add(unlitSceneWarning(*scene, hasEnvironment));
+  add(limitedBlurWarning(statistics.clampedCoc, shot.lens, technique, parameters, shot.height));
+  return warnings;
 }
 
 void Renderer::declare(Graph& graph, const Shot& shot, const RenderOptions& options) {

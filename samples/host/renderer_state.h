@@ -49,6 +49,9 @@ struct RendererState {
   passes::SceneShading importShading(rendergraph::Graph& graph) const;
   Rendering run(const ChosenTechnique& technique, const passes::DofInputs& inputs, const RenderOptions& options,
                 const DeclareFrame& declareFrame);
+  std::vector<std::string> warningsOf(const Shot& shot, const passes::Technique& technique,
+                                      const passes::ParameterSet& parameters,
+                                      const shared::FrameStatistics& statistics) const;
   ReadBacks declareReadBacks(rendergraph::Graph& graph, const FrameOutputs& frame, bool isLast, bool wantDepth);
   FrameOutputs declareTechnique(rendergraph::Graph& graph, passes::DofInputs inputs, const ChosenTechnique& technique,
                                 bool wantDepth);
@@ -58,6 +61,8 @@ struct RendererState {
   rendergraph::Executor executor;
   std::optional<engine::Scene> scene;
   std::unique_ptr<engine::SceneRenderer> renderer;
+  bool hasEnvironment = false;
+  bool nothingIsVisible = false;  ///< Of the scene, in the shot that sceneInputs() was asked for last.
   passes::SceneDraw sceneDraw;
   std::vector<passes::VergenceInterval> occupied;  ///< What sceneDraw refers to.
 };

@@ -23,6 +23,8 @@ struct Rendering {
   double gpuMs = 0.0;            ///< Device time of all executions.
   double wallMs = 0.0;           ///< Host time of all executions. The first render() also compiles shaders.
   uint32_t executions = 0;       ///< Of the graph; progressive techniques take several for one picture.
+  /// One line each: what of the shot had no effect, or why the picture may not be what was meant.
+  std::vector<std::string> warnings;
   double estimatedError = -1.0;  ///< RMS standard error of a progressive technique; negative when it has none.
 };
 

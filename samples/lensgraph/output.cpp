@@ -9,6 +9,8 @@
 
 #include "engine/error.h"
 #include "engine/files/output_file.h"
+#include "engine/image/image_io.h"
+#include "samples/host/warnings.h"
 
 namespace lensgraph::cli {
 namespace {
@@ -55,6 +57,15 @@ void requireDistinct(std::span<const OutputFile> files) {
 void warnUnusedExposure(const path& output) {
   if (lowerExtension(output) != ".png") {
     spdlog::warn("{}: --exposure changes only .png; this file keeps the scene's light", output.string());
+  }
+}
+
+void writePicture(const path& output, const engine::FloatImage& color, const std::optional<double>& exposureEv) {
+  const double exposure = exposureEv.value_or(0.0);
+  engine::writeImage(output, color, {.exposureEv = exposure});
+  if (lowerExtension(output) != ".png") return;
+  if (const auto warning = host::clippedPictureWarning(color, exposure)) {
+    spdlog::warn("{}: {}", output.string(), *warning);
   }
 }
 

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+
+#include "engine/image/image.h"
 
 namespace lensgraph::cli {
 
@@ -29,6 +32,10 @@ inline constexpr std::string_view kDumpExtensions[] = {".exr", ".png"};
 
 /// Warns when an exposure is asked for although the format keeps scene light.
 void warnUnusedExposure(const std::filesystem::path& output);
+
+/// Writes what --output names, and warns when most of it is beyond what the format can show.
+void writePicture(const std::filesystem::path& output, const engine::FloatImage& color,
+                  const std::optional<double>& exposureEv);
 
 /// As engine::writeFile(). "-" is stdout.
 void writeTextFile(const std::filesystem::path& file, std::string_view text);

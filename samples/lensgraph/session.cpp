@@ -64,9 +64,7 @@ void printSummary(const engine::DeviceDescription& device, const host::Technique
   if (rendering.statistics.replacedTexels > 0) {
     spdlog::warn("{} texels that were not finite were replaced by 0", rendering.statistics.replacedTexels);
   }
-  if (rendering.statistics.clampedCoc > 0) {
-    spdlog::warn("lens.maxCocRadius limited the blur of {} pixels", rendering.statistics.clampedCoc);
-  }
+  Session::report(rendering.warnings);
   if (rendering.statistics.transparentUnsorted > 0) {
     spdlog::warn("{} pixels have too many alpha-blended layers: the nearest ones are missing there",
                  rendering.statistics.transparentUnsorted);

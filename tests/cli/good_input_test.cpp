@@ -233,6 +233,39 @@ TEST_F(GoodInput, DemoWritesAPageWithItsPictures) {
   }
 }
 
+// ---- Pictures that may not be what was meant
+
+class Doubtful : public GoodInput {
+ protected:
+  /// Renders shot.json after a change of it, and returns the one warning.
+  std::string warningOf(const std::string& pointer, const json& value, std::vector<std::string> arguments = {}) {
+    json changed = shot();
+    changed[json::json_pointer(pointer)] = value;
+    writeShot(changed);
+    arguments.insert(arguments.begin(), {"render", "shot.json", "-o", "out.png"});
+    const auto outcome = run(arguments);
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_THAT(outcome.err, StartsWith("lensgraph: warning: "));
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    return outcome.err;
+  }
+};
+
+TEST_F(Doubtful, ABlankPictureSaysWhy) {
+  EXPECT_THAT(warningOf("/camera/near", 50.0, {"--technique", "pinhole"}),
+              testing::AllOf(HasSubstr("nothing is beyond the near plane of 50 m"), HasSubstr("camera.near")));
+}
+
+TEST_F(Doubtful, AnIgnoredLensFieldIsNamed) {
+  EXPECT_THAT(warningOf("/lens/bladeCount", 5, {"--technique", "two_pass_filter"}),
+              HasSubstr("two_pass_filter ignores lens.bladeCount"));
+}
+
+TEST_F(Doubtful, AWhitePictureNamesAnExposure) {
+  const auto warning = warningOf("/background", {1.0, 1.0, 1.0}, {"--technique", "pinhole", "--exposure", "5"});
+  EXPECT_THAT(warning, HasSubstr("try --exposure 0.4"));
+}
+
 }  // namespace
 
 }  // namespace lensgraph

@@ -98,7 +98,7 @@ int runApply(const ApplyArguments& arguments, const GlobalArguments& global) {
     return session.finish();
   }
 
-  engine::writeImage(arguments.output, rendering.color, {.exposureEv = arguments.exposureEv.value_or(0.0)});
+  writePicture(arguments.output, rendering.color, arguments.exposureEv);
   inspection.write(device, {arguments.color.string(), {arguments.color, arguments.depth}, &lens}, choice, rendering);
   printSummary(device, choice, rendering);
   return session.finish();

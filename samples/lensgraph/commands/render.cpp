@@ -23,7 +23,7 @@ void checkOutputs(const RenderArguments& arguments, const Inspection& inspection
 void writeOutputs(const RenderArguments& arguments, const host::Shot& shot, const host::TechniqueChoice& choice,
                   const engine::DeviceDescription& device, const host::Rendering& rendering,
                   const Inspection& inspection) {
-  engine::writeImage(arguments.output, rendering.color, {.exposureEv = arguments.exposureEv.value_or(0.0)});
+  writePicture(arguments.output, rendering.color, arguments.exposureEv);
   if (arguments.depthOut) engine::writeImage(*arguments.depthOut, rendering.depth);
   CaptureInput input{arguments.shot.string(), {arguments.shot}, &shot.lens};
   for (const auto& part : shot.scene) input.files.push_back(part.path);

@@ -5,7 +5,9 @@
 //   4. the same inputs give the same bits, run to run
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "passes/registry/registry.h"
@@ -94,6 +96,37 @@ TEST_P(Laws, EveryRunGivesTheSameBits) {
   const auto first = render(renderer, shot, GetParam(), quick(GetParam())).color.samples;
   EXPECT_TRUE(first == render(renderer, shot, GetParam(), quick(GetParam())).color.samples);
   EXPECT_TRUE(first == render(another, shot, GetParam(), quick(GetParam())).color.samples);
+}
+
+/// One change of a lens that has an aperture of five straight blades.
+struct LensChange {
+  std::string field;
+  std::function<void(passes::Lens&)> make;
+};
+
+TEST_P(Laws, ExactlyTheListedLensFieldsAreIgnored) {
+  if (GetParam() == "pinhole") return;  // It has no lens.
+  const LensChange changes[] = {
+      {"bladeCount", [](auto& lens) { lens.bladeCount = 3; }},
+      {"bladeRotation", [](auto& lens) { lens.bladeRotation = 0.6; }},
+      {"bladeCurvature", [](auto& lens) { lens.bladeCurvature = 1.0; }},
+      {"anamorphicRatio", [](auto& lens) { lens.anamorphicRatio = 2.0; }},
+      {"opticalVignetting", [](auto& lens) { lens.opticalVignetting = 1.0; }},
+      {"sphericalAberration", [](auto& lens) { lens.sphericalAberration = 1.0; }},
+      {"maxCocRadius", [](auto& lens) { lens.maxCocRadius = 0.01; }},
+  };
+  host::Renderer renderer(support::device(), support::layeredScene(), std::nullopt);
+  auto shot = support::smallShot(64, 36);
+  shot.lens.apertureRadius = 0.1;
+  shot.lens.bladeCount = 5;
+  const auto plain = render(renderer, shot, GetParam(), quick(GetParam())).color.samples;
+  const auto& ignored = passes::findTechnique(GetParam())->ignoredLensFields;
+  for (const auto& [field, make] : changes) {
+    auto changed = shot;
+    make(changed.lens);
+    const bool isSame = render(renderer, changed, GetParam(), quick(GetParam())).color.samples == plain;
+    EXPECT_EQ(isSame, std::ranges::find(ignored, field) != ignored.end()) << field << (isSame ? " changed nothing" : " changed the picture");
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Every, Laws, testing::ValuesIn(techniqueNames()), [](const auto& info) { return info.param; });
