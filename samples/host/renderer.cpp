@@ -5,7 +5,6 @@
 #include <cstring>
 
 #include "engine/error.h"
-#include "engine/image/image_io.h"
 #include "passes/pinhole/pinhole.h"
 #include "rendergraph/compiler.h"
 #include "samples/host/read_back.h"
@@ -69,11 +68,6 @@ void keepTapped(const Graph& graph, const rendergraph::Executor& executor, const
   }
 }
 
-std::optional<engine::Environment> loadEnvironment(const Shot& shot) {
-  if (!shot.environment) return std::nullopt;
-  return engine::prepareEnvironment(engine::readImage(*shot.environment));
-}
-
 }  // namespace
 
 ChosenTechnique techniqueOf(const RenderOptions& options) {
@@ -84,7 +78,7 @@ ChosenTechnique techniqueOf(const RenderOptions& options) {
 }
 
 Renderer::Renderer(engine::Device& device, const Shot& shot, std::vector<std::string>& warnings)
-    : Renderer(device, loadShotScene(shot, warnings), loadEnvironment(shot)) {}
+    : Renderer(device, loadShotScene(shot, warnings), loadShotEnvironment(shot)) {}
 
 Renderer::Renderer(engine::Device& device, engine::Scene scene, const std::optional<engine::Environment>& environment)
     : state_(std::make_unique<RendererState>(device)) {
@@ -180,7 +174,8 @@ Rendering Renderer::render(const Shot& shot, const RenderOptions& options) {
     auto rendering = state_->run(technique, inputs, options, [&](Graph& graph, uint32_t frame) {
       DofInputs now = inputs;
       now.frame = frame;
-      return state_->declareTechnique(graph, now, technique, options.wantDepth);
+      return namingShot(shot, "technique",
+                        [&] { return state_->declareTechnique(graph, now, technique, options.wantDepth); });
     });
     if (options.fixedRoom || !lacksRoom(rendering.statistics)) return rendering;
     makeRoom(rendering.statistics, pixels, state_->sceneDraw);
@@ -189,7 +184,9 @@ Rendering Renderer::render(const Shot& shot, const RenderOptions& options) {
 
 void Renderer::declare(Graph& graph, const Shot& shot, const RenderOptions& options) {
   const auto technique = techniqueOf(options);
-  const auto out = state_->declareTechnique(graph, state_->sceneInputs(shot), technique, options.wantDepth);
+  const DofInputs inputs = state_->sceneInputs(shot);
+  const auto out = namingShot(shot, "technique",
+                              [&] { return state_->declareTechnique(graph, inputs, technique, options.wantDepth); });
   graph.exportImage(out.technique.color, {VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
                                           VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
 }

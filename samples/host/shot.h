@@ -9,6 +9,7 @@
 
 #include "engine/gltf/load_gltf.h"
 #include "engine/scene/camera.h"
+#include "engine/scene/camera_choice.h"
 #include "passes/lens/physical_lens.h"
 #include "passes/parameters.h"
 
@@ -23,13 +24,15 @@ struct ScenePart {
 };
 
 struct ShotCamera : engine::LookAt {
-  double nearPlane = engine::kDefaultNearPlane;  ///< m, > 0.
-  std::optional<std::string> gltfCamera;         ///< Replaces position, target, up and fovy.
+  /// m, > 0; none: kDefaultNearPlane, or that of the scene's camera.
+  std::optional<double> nearPlane;
+  std::optional<engine::CameraChoice> gltfCamera;  ///< A camera of the scene, instead of position, target, up and fovy.
 };
 
 enum class Shading { unlit, lit };
 
 struct Shot {
+  std::filesystem::path file;  ///< Where it was read from, for messages; empty for one made in memory.
   std::string name;
   std::vector<ScenePart> scene;
   ShotCamera camera;
