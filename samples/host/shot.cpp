@@ -197,15 +197,31 @@ void parsePicture(const JsonNode& root, const path& folder, Shot& shot) {
     if (text != "unlit" && text != "lit") shading->fail("is \"" + text + "\", must be \"unlit\" or \"lit\"");
     shot.shading = text == "lit" ? Shading::lit : Shading::unlit;
   }
+  if (const auto node = root.find("faces")) {
+    const auto faces = drawnFacesFrom(node->text());
+    if (!faces) node->fail("is \"" + node->text() + "\", must be \"material\" or \"both\"");
+    shot.faces = *faces;
+  }
 }
 
 }  // namespace
+
+std::optional<engine::DrawnFaces> drawnFacesFrom(std::string_view text) {
+  for (const auto faces : {engine::DrawnFaces::material, engine::DrawnFaces::both}) {
+    if (text == nameOf(faces)) return faces;
+  }
+  return std::nullopt;
+}
+
+std::string_view nameOf(engine::DrawnFaces faces) {
+  return faces == engine::DrawnFaces::both ? "both" : "material";
+}
 
 Shot readShot(const path& file) {
   const auto document = readJsonFile(file);
   const JsonNode root(document, file);
   root.requireObject({"name", "description", "scene", "camera", "lens", "resolution", "background", "environment",
-                      "shading", "technique"});
+                      "shading", "faces", "technique"});
   const path folder = file.parent_path();
 
   Shot shot;

@@ -161,6 +161,12 @@ TEST_F(ShotFile, WithoutACameraTakesTheOnlyOneOfTheScene) {
   EXPECT_EQ(read(bare).camera.nearPlane, std::nullopt);
 }
 
+TEST_F(ShotFile, ReadsFaces) {
+  EXPECT_EQ(read(minimal()).faces, engine::DrawnFaces::material);
+  EXPECT_EQ(read(with("/faces", "material")).faces, engine::DrawnFaces::material);
+  EXPECT_EQ(read(with("/faces", "both")).faces, engine::DrawnFaces::both);
+}
+
 TEST_F(ShotFile, ReadsPictureAndTechnique) {
   auto given = minimal();
   given["name"] = "a name";
@@ -211,7 +217,7 @@ TEST_F(ShotFile, ErrorsAreShortHoweverLongTheirCauseIs) {
     const auto parts = errorOf(shot);
     return parts.field.size() + parts.reason.size() + parts.remedy.size();
   };
-  for (const auto& shot : {with("/shading", text), with("/" + text, 1), with("/lens/" + text, 1),
+  for (const auto& shot : {with("/shading", text), with("/faces", text), with("/" + text, 1), with("/lens/" + text, 1),
                            with("/scene/0/path", text), with("/technique", {{"name", text}}),
                            with("/technique", {{"name", "pinhole"}, {text, 1}})}) {
     EXPECT_LT(lengthOf(shot.dump()), 450u);
@@ -328,6 +334,8 @@ constexpr BadField kBadFields[] = {
     {"/camera", R"({"fovyDeg": 40})", "camera.position"},
     {"/camera", "null", "camera"},
     {"/camera/position", "[0, 1e300, 0]", "camera.position"},
+    {"/faces", "\"front\"", "faces"},
+    {"/faces", "true", "faces"},
     {"/scene", "{}", "scene"},
     {"/scene/0/path", "\"\"", "scene[0].path"},
     {"/scene/0/path", "7", "scene[0].path"},
