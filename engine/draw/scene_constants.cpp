@@ -16,6 +16,10 @@ shared::vec4 toShared(const glm::dvec3& v, double w) {
 
 }  // namespace
 
+bool drawsBothFaces(const SceneViewpoint& viewpoint, const SceneDrawItem& item) {
+  return viewpoint.faces == DrawnFaces::both || item.doubleSided || item.winding == Winding::lost;
+}
+
 shared::DrawConstants drawConstantsOf(const SceneViewpoint& viewpoint, const SceneDrawItem& item) {
   glm::dmat4 viewFromObject = viewpoint.viewFromWorld * item.worldFromObject;
   for (int column = 0; column < 4; ++column) {
@@ -29,6 +33,7 @@ shared::DrawConstants drawConstantsOf(const SceneViewpoint& viewpoint, const Sce
   constants.normalColumns[1] = toShared(glm::cross(m[2], m[0]), 0.0);
   constants.normalColumns[2] = toShared(glm::cross(m[0], m[1]), 0.0);
   constants.material = item.material;
+  constants.bothFaces = drawsBothFaces(viewpoint, item) ? 1u : 0u;
   return constants;
 }
 

@@ -8,6 +8,8 @@
 
 namespace lensgraph::engine {
 
+/// Whether a draw's back faces are drawn as its front faces are.
+bool drawsBothFaces(const SceneViewpoint& viewpoint, const SceneDrawItem& item);
 /// Matrices are multiplied in double and rounded once.
 shared::DrawConstants drawConstantsOf(const SceneViewpoint& viewpoint, const SceneDrawItem& item);
 shared::LightConstants lightConstantsOf(const SceneViewpoint& viewpoint, const Light& light);

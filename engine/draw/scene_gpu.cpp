@@ -3,7 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <tuple>
 
 #include "engine/vulkan/command_buffers.h"
 #include "engine/vulkan/vulkan_functions.h"
@@ -69,6 +73,16 @@ std::span<const std::byte> bytesOf(const std::vector<T>& items) {
 
 }  // namespace
 
+Winding windingOf(const glm::dmat4& worldFromObject) {
+  constexpr double kRounding = 1e-14;
+  const glm::dmat3 m(worldFromObject);
+  const double determinant = glm::determinant(m);
+  // Relative to the axes' lengths, so that thin objects are not taken for flat ones.
+  const double lengths = glm::length(m[0]) * glm::length(m[1]) * glm::length(m[2]);
+  if (!(std::abs(determinant) > kRounding * lengths)) return Winding::lost;
+  return determinant < 0.0 ? Winding::turned : Winding::kept;
+}
+
 SceneGpu::SceneGpu(const Device& device, PipelineStore& pipelines, const Scene& scene) : device_(device) {
   uploadGeometry(scene);
   uploadMaterials(scene);
@@ -87,7 +101,10 @@ void SceneGpu::uploadGeometry(const Scene& scene) {
     item.indexCount = static_cast<uint32_t>(primitive.indices.size());
     item.vertexOffset = static_cast<int32_t>(vertices.size());
     item.material = primitive.material == kNoIndex ? fallback : primitive.material;
-    if (primitive.material != kNoIndex) item.alphaMode = scene.materials[primitive.material].alphaMode;
+    if (primitive.material != kNoIndex) {
+      item.alphaMode = scene.materials[primitive.material].alphaMode;
+      item.doubleSided = scene.materials[primitive.material].doubleSided;
+    }
     byPrimitive.push_back(item);
     for (std::size_t i = 0; i < primitive.positions.size(); ++i) vertices.push_back(vertexOf(primitive, i));
     indices.insert(indices.end(), primitive.indices.begin(), primitive.indices.end());
@@ -95,10 +112,11 @@ void SceneGpu::uploadGeometry(const Scene& scene) {
   for (const auto& instance : scene.instances) {
     draws_.push_back(byPrimitive[instance.primitive]);
     draws_.back().worldFromObject = instance.worldFromObject;
+    draws_.back().winding = windingOf(instance.worldFromObject);
     hasTransparency_ |= draws_.back().alphaMode == AlphaMode::blend;
   }
   std::stable_sort(draws_.begin(), draws_.end(), [](const SceneDrawItem& a, const SceneDrawItem& b) {
-    return a.alphaMode != b.alphaMode ? a.alphaMode < b.alphaMode : a.material < b.material;
+    return std::tie(a.alphaMode, a.material, a.winding) < std::tie(b.alphaMode, b.material, b.winding);
   });
   using rendergraph::MemoryKind;
   vertices_ = makeBuffer(device_, vertices.size() * sizeof(SceneVertex),

@@ -16,12 +16,24 @@ struct SceneVertex {
   float position[3], normal[3], uv0[2], uv1[2], color[4];
 };
 
+/// What a matrix does to the winding of triangles, which tells their front from their back.
+enum class Winding : uint8_t {
+  kept,
+  turned,  ///< Negative determinant: the matrix mirrors.
+  lost,    ///< No determinant: the matrix flattens a dimension, and nothing is in front or behind.
+};
+
+/// A matrix whose determinant is 0 within rounding loses the winding.
+Winding windingOf(const glm::dmat4& worldFromObject);
+
 struct SceneDrawItem {
   uint32_t firstIndex = 0, indexCount = 0;
   int32_t vertexOffset = 0;
   uint32_t material = 0;
   AlphaMode alphaMode = AlphaMode::opaque;
+  bool doubleSided = false;
   glm::dmat4 worldFromObject{1.0};
+  Winding winding = Winding::kept;  ///< By worldFromObject.
 };
 
 /// Descriptor set 1 of a material: base colour, emissive, metallic-roughness, normal, occlusion.
@@ -36,7 +48,7 @@ class SceneGpu {
   VkBuffer vertices() const { return vertices_.buffer.get(); }
   VkBuffer indices() const { return indices_.buffer.get(); }
   VkBuffer materials() const { return materials_.buffer.get(); }
-  /// Opaque first, then masked, then blended; within each by material.
+  /// Opaque first, then masked, then blended; within each by material, and then by winding.
   const std::vector<SceneDrawItem>& draws() const { return draws_; }
   VkDescriptorSet materialSet(uint32_t material) const { return materialSets_[material]; }
   VkDescriptorSetLayout materialSetLayout() const { return materialSetLayout_; }

@@ -88,6 +88,13 @@ bool isDrawnBy(SceneEmit emit, AlphaMode mode) {
   return surfaces == Surfaces::all || (surfaces == Surfaces::blended) == (mode == AlphaMode::blend);
 }
 
+/// A mirrored object keeps counter-clockwise as the rasterizer's front, for shaders turn its normals round too; so its
+/// back is what the rasterizer calls front.
+VkCullModeFlags cullModeOf(const SceneViewpoint& viewpoint, const SceneDrawItem& item) {
+  if (drawsBothFaces(viewpoint, item)) return VK_CULL_MODE_NONE;
+  return item.winding == Winding::turned ? VK_CULL_MODE_FRONT_BIT : VK_CULL_MODE_BACK_BIT;
+}
+
 GpuBuffer hostBuffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage, const char* name) {
   return makeBuffer(device, size, usage, MemoryKind::upload, name);
 }
@@ -181,9 +188,11 @@ void SceneRenderer::makeSceneSet(const std::optional<Environment>& environment) 
 }
 
 void SceneRenderer::setViewpoint(const SceneViewpoint& viewpoint) {
+  cullModes_.resize(gpu_.draws().size());
   auto* draws = static_cast<shared::DrawConstants*>(drawConstants_.block.address);
   for (std::size_t i = 0; i < gpu_.draws().size(); ++i) {
     draws[i] = drawConstantsOf(viewpoint, gpu_.draws()[i]);
+    cullModes_[i] = cullModeOf(viewpoint, gpu_.draws()[i]);
   }
   auto* lights = static_cast<shared::LightConstants*>(lightConstants_.block.address);
   for (std::size_t i = 0; i < lights_.size(); ++i) lights[i] = lightConstantsOf(viewpoint, lights_[i]);
@@ -240,6 +249,7 @@ SceneRenderer::EmitPipeline& SceneRenderer::pipelineFor(const SceneDrawRequest& 
   desc.geometry = traits.geometry;
   desc.fragment = traits.fragment;
   desc.state = {.depthTest = traits.testsDepth, .depthWrite = traits.writesDepth};
+  desc.dynamicCull = true;
   desc.specialization = &specialization;
   desc.colorFormats = request.colorFormats;
   desc.depthFormat = request.depthFormat;
@@ -271,6 +281,7 @@ void SceneRenderer::draw(const rendergraph::CommandStream& stream, const SceneDr
   const VkCommandBuffer commands = stream.buffer;
   const EmitPipeline* bound = nullptr;
   uint32_t boundMaterial = kNoIndex;
+  std::optional<VkCullModeFlags> cullMode;
   VkDescriptorSet emitSet = VK_NULL_HANDLE;
   for (uint32_t i = 0; i < gpu_.draws().size(); ++i) {
     const auto& item = gpu_.draws()[i];
@@ -291,6 +302,10 @@ void SceneRenderer::draw(const rendergraph::CommandStream& stream, const SceneDr
       vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.layout.get(), 1, 1, &set, 0,
                                  nullptr);
       boundMaterial = item.material;
+    }
+    if (cullMode != cullModes_[i]) {
+      cullMode = cullModes_[i];
+      vk.vkCmdSetCullMode(commands, *cullMode);
     }
     vk.vkCmdDrawIndexed(commands, item.indexCount, 1, item.firstIndex, item.vertexOffset, i);
   }

@@ -60,6 +60,7 @@ class SceneRenderer {
   const Device& device_;
   SceneGpu gpu_;
   std::vector<Light> lights_;
+  std::vector<VkCullModeFlags> cullModes_;  ///< Of the draws, from the latest viewpoint.
   bool lit_ = false;
   GpuBuffer drawConstants_, lightConstants_, sceneConstants_;  ///< Host-visible; written by setViewpoint().
   GpuImage environmentImage_;

@@ -1,6 +1,7 @@
 // Walks the node tree of a glTF file and assembles the scene: instances, cameras, lights.
 #include "engine/gltf/load_gltf.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -71,11 +72,13 @@ class Assembler {
     for (size_t index : drawn_) {
       const tinygltf::Node& node = document_.model.nodes[index];
       const glm::dmat4 world = worldFromFile_ * fileFromNode_[index];
-      if (!isFinite(world)) document_.fail(at("nodes", index), "its transform is too large");
-      if (node.mesh >= 0 && !isHidden(world)) addMesh(index, node, world);
       if (node.camera >= 0) addCamera(node, world);
+      const bool isDrawn = node.mesh >= 0 || node.extensions.contains("KHR_lights_punctual");
+      if (isDrawn && !isFinite(world)) document_.fail(at("nodes", index), "its transform is too large");
+      if (node.mesh >= 0 && !isHidden(world)) addMesh(index, node, world);
       if (node.extensions.contains("KHR_lights_punctual")) addLight(node, world);
     }
+    std::ranges::stable_sort(scene_.cameras, {}, &SceneCamera::fileIndex);
     return std::move(scene_);
   }
 
@@ -170,15 +173,10 @@ class Assembler {
   void addCamera(const tinygltf::Node& node, const glm::dmat4& world) {
     const size_t index = static_cast<size_t>(node.camera);
     const tinygltf::Camera& source = document_.model.cameras[index];
-    if (source.type != "perspective") {
-      document_.warn(at("cameras", index) + ": only perspective cameras are read");
-      return;
-    }
     const tinygltf::PerspectiveCamera& lens = source.perspective;
-    const std::string field = at("cameras", index, ".perspective");
-    if (!(lens.yfov > 0.0 && lens.yfov < kPi)) document_.fail(field + ".yfov", "is not inside (0, pi)");
-    if (!(lens.znear > 0.0) || !std::isfinite(lens.znear)) document_.fail(field + ".znear", "is not positive");
     SceneCamera camera;
+    camera.type = source.type == "perspective" ? CameraType::perspective : CameraType::orthographic;
+    camera.fileIndex = static_cast<uint32_t>(index);
     camera.name = source.name.empty() ? node.name : source.name;
     camera.nodeName = node.name;
     camera.yfov = lens.yfov;

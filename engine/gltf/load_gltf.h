@@ -4,9 +4,9 @@
 // quantised accessors (KHR_mesh_quantization); metallic-roughness, emissive
 // (KHR_materials_emissive_strength), unlit (KHR_materials_unlit), alpha modes; textures, samplers, two UV
 // sets, KHR_texture_transform; vertex colours; skins, in the pose that the file's nodes give their joints
-// (with a warning); perspective cameras; KHR_lights_punctual; embedded and external buffers and images. Not read, with a
-// warning: animations and morph targets (the pose without them is drawn), points and lines, orthographic
-// cameras, UV sets above 1, other extensions in extensionsUsed. Other extensions in extensionsRequired are an
+// (with a warning); cameras; KHR_lights_punctual; embedded and external buffers and images. Not read, with a
+// warning: animations and morph targets (the pose without them is drawn), points and lines, UV
+// sets above 1, other extensions in extensionsUsed. Other extensions in extensionsRequired are an
 // error.
 #pragma once
 

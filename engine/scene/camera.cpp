@@ -1,4 +1,4 @@
-// Computes viewFromWorld from a look-at or from a camera of a file. See camera.h for conventions.
+// Computes viewFromWorld from a look-at or from a matrix. See camera.h for conventions.
 #include "engine/scene/camera.h"
 
 #include <array>
@@ -18,12 +18,20 @@ namespace {
 // Below this sine of the angle between axis and up, rounding decides about the roll of the camera.
 constexpr double kMinUpSine = 1e-6;
 
+constexpr const char* kCloser = "coordinates must be below 1e30";
+
 [[noreturn]] void fail(const std::string& field, const std::string& reason, const std::string& remedy = {}) {
   throw Error(ErrorParts{.file = {}, .field = field, .reason = reason, .remedy = remedy});
 }
 
 bool isFinite(const glm::dvec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+/// Whether no coordinate is beyond what can be drawn.
+bool isNear(const glm::dvec3& v) {
+  return std::fabs(v.x) < kFarthestCoordinate && std::fabs(v.y) < kFarthestCoordinate &&
+         std::fabs(v.z) < kFarthestCoordinate;
 }
 
 /// A direction of unit length without the overflow and underflow of squaring: the vector is scaled by its largest
@@ -66,6 +74,7 @@ std::optional<LookAtProblem> findProblem(const LookAt& lookAt) {
   if (!isFinite(lookAt.position)) return problem("position", "is not finite");
   if (!isFinite(lookAt.target)) return problem("target", "is not finite");
   if (!isFinite(lookAt.up)) return problem("up", "is not finite");
+  if (!isNear(lookAt.position)) return problem("position", "is too far away", kCloser);
   if (!(lookAt.fovyDeg > 0.0 && lookAt.fovyDeg < 180.0)) {
     std::array<char, 64> reason{};
     std::snprintf(reason.data(), reason.size(), "is %g, must be above 0 and below 180 degrees", lookAt.fovyDeg);
@@ -98,30 +107,16 @@ Camera cameraFromLookAt(const LookAt& lookAt, double nearPlane) {
   return camera;
 }
 
-Camera cameraFromScene(const Scene& scene, std::string_view name) {
-  const SceneCamera* found = findCamera(scene, std::string(name));
-  if (found == nullptr) {
-    std::string names;
-    for (const SceneCamera& camera : scene.cameras) {
-      const std::string& shown = camera.name.empty() ? camera.nodeName : camera.name;
-      names += (names.empty() ? "'" : ", '") + shown + "'";
-    }
-    fail("camera.gltfCamera", "there is no camera '" + std::string(name) + "' in the scene",
-         names.empty() ? "the scene has no perspective cameras" : "it has " + names);
-  }
-  const glm::dmat4& world = found->worldFromCamera;
-  // Columns may be scaled, sheared or mirrored; the view keeps backward, then up, and is right-handed again.
-  const auto back = direction(glm::dvec3(world[2]));
-  if (!back) fail("camera.gltfCamera", "has a transform without a direction");
-  const auto up = direction(glm::dvec3(world[1]));
-  if (!up) fail("camera.gltfCamera", "has a transform without an up direction");
+glm::dmat4 viewFromCameraMatrix(const glm::dmat4& worldFromCamera, const std::string& field) {
+  const auto back = direction(glm::dvec3(worldFromCamera[2]));
+  if (!back) fail(field, "has a transform without a direction");
+  const auto up = direction(glm::dvec3(worldFromCamera[1]));
+  if (!up) fail(field, "has a transform without an up direction");
   const auto right = rightOf(-*back, *up);
-  if (!right) fail("camera.gltfCamera", "has a degenerate transform");
-  Camera camera;
-  camera.viewFromWorld = viewFromAxes(*right, glm::cross(*back, *right), *back, glm::dvec3(world[3]));
-  camera.fovy = found->yfov;
-  camera.nearPlane = found->znear;
-  return camera;
+  if (!right) fail(field, "has a degenerate transform");
+  const glm::dvec3 position(worldFromCamera[3]);
+  if (!isNear(position)) fail(field, "is too far away");
+  return viewFromAxes(*right, glm::cross(*back, *right), *back, position);
 }
 
 double pixelsPerTangent(const Camera& camera, uint32_t imageHeight) {

@@ -10,9 +10,6 @@
 #include <glm/vec3.hpp>
 #include <optional>
 #include <string>
-#include <string_view>
-
-#include "engine/scene/scene.h"
 
 namespace lensgraph::engine {
 
@@ -41,17 +38,21 @@ struct LookAtProblem {
   std::string remedy;  ///< What to do about it; may be empty.
 };
 
-/// The first problem of a LookAt: non-finite numbers, target at the position, up zero or along the axis, field of view
-/// outside (0, 180) degrees. Nothing when cameraFromLookAt() accepts it.
+/// A camera's coordinates are below this, in the scene's unit: from beyond it nothing that is described by floats could be
+/// seen.
+inline constexpr double kFarthestCoordinate = 1e30;
+
+/// The first problem of a LookAt: non-finite numbers, a position beyond kFarthestCoordinate, target at the position, up zero or along the
+/// axis, field of view outside (0, 180) degrees. Nothing when cameraFromLookAt() accepts it.
 std::optional<LookAtProblem> findProblem(const LookAt& lookAt);
 
 /// Throws Error for the LookAt's problem (fields named camera.position, camera.target, …), or for a near plane that is
 /// not a positive length.
 Camera cameraFromLookAt(const LookAt& lookAt, double nearPlane = kDefaultNearPlane);
 
-/// The scene's camera of that name (glTF camera's name, else its node's name). Scale in its transform is
-/// ignored. Its near plane is the file's. Throws Error that lists the names there are.
-Camera cameraFromScene(const Scene& scene, std::string_view name);
+/// The view of a camera that stands in the world by this matrix and looks down its −Z. Scale, shear and mirroring are
+/// dropped: backward is kept, then up. Throws Error with the field `field` where no direction is left.
+glm::dmat4 viewFromCameraMatrix(const glm::dmat4& worldFromCamera, const std::string& field);
 
 /// S = h / (2 tan(fovy/2)): pixels per unit of tangent, equal in x and y (square pixels).
 double pixelsPerTangent(const Camera& camera, uint32_t imageHeight);

@@ -76,7 +76,7 @@ glm::vec2 transformUv(const TextureUse& use, glm::vec2 uv);
 
 enum class AlphaMode {
   opaque,  ///< Alpha is 1 whatever the texture says.
-  mask,    ///< Drawn where alpha > alphaCutoff.
+  mask,    ///< Drawn where alpha >= alphaCutoff, and opaque there.
   blend,   ///< Ordered over.
 };
 
@@ -96,8 +96,8 @@ struct Material {
   float occlusionStrength = 1.0f;
   AlphaMode alphaMode = AlphaMode::opaque;
   float alphaCutoff = 0.5f;  ///< For AlphaMode::mask.
-  bool doubleSided = false;
-  bool unlit = false;  ///< KHR_materials_unlit: base colour is the radiance; the emissive part is dropped.
+  bool doubleSided = false;  ///< Back faces are drawn too; without it only where DrawnFaces::both asks for them.
+  bool unlit = false;        ///< KHR_materials_unlit: base colour is the radiance; the emissive part is dropped.
 };
 
 // ---- Geometry
@@ -126,11 +126,16 @@ struct Instance {
 
 // ---- Cameras and lights
 
-/// Perspective camera of a file. Looks down its −Z.
+enum class CameraType { perspective, orthographic };
+
+/// Camera of a file, with the file's numbers, which may be nonsense: cameraFromScene() checks the one that is used. Looks
+/// down its −Z.
 struct SceneCamera {
-  std::string name;                   ///< glTF camera's name; its node's name when it has none.
-  std::string nodeName;               ///< Also accepted by findCamera().
-  double yfov = 0.8;                  ///< rad
+  std::string name;      ///< glTF camera's name; its node's name when it has none; may be empty.
+  std::string nodeName;  ///< Also accepted by findCamera().
+  CameraType type = CameraType::perspective;
+  uint32_t fileIndex = 0;             ///< Its place in the file's `cameras`, for messages.
+  double yfov = 0.8;                  ///< rad; perspective only
   std::optional<double> aspectRatio;  ///< Width / height.
   double znear = 0.01;                ///< m
   std::optional<double> zfar;         ///< m; none: infinite
@@ -159,6 +164,8 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<Texture> textures;
   std::vector<SceneImage> images;
+  /// File after file; of each those that nodes place, in the order of the file's `cameras`. One that several nodes place
+  /// is there once for each, in the order in which the tree of nodes is walked, parents first.
   std::vector<SceneCamera> cameras;
   std::vector<Light> lights;
 };

@@ -10,11 +10,12 @@
 
 namespace lensgraph::engine {
 
-/// Viewport and scissor are dynamic. Spans and pointers need to live only until the pipeline is made.
+/// Viewport and scissor are dynamic, and the cull mode where it is asked for. Spans and pointers need to live only until the pipeline is made.
 struct RasterPipelineDesc {
   std::string name;
   rendergraph::SpirV vertex, geometry, fragment;  ///< Geometry and fragment may be empty.
   rendergraph::RasterState state;
+  bool dynamicCull = false;  ///< Cull mode by vkCmdSetCullMode() instead of the state's.
   const VkSpecializationInfo* specialization = nullptr;
   std::span<const VkFormat> colorFormats;
   VkFormat depthFormat = VK_FORMAT_UNDEFINED;

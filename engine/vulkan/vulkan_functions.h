@@ -56,6 +56,7 @@
   X(vkCmdFillBuffer) \
   X(vkCmdPipelineBarrier2) \
   X(vkCmdPushConstants) \
+  X(vkCmdSetCullMode) \
   X(vkCmdSetEvent2) \
   X(vkCmdSetScissor) \
   X(vkCmdSetViewport) \

@@ -32,7 +32,7 @@ engine::Error tooLarge(PictureExtent wanted, const std::string& technique, const
                        const std::optional<PictureExtent>& fitting) {
   const auto& first = problem.problems().front();
   return engine::Error({.file = {},
-                        .field = "resolution",
+                        .field = {},
                         .reason = text(wanted) + " px is more than this device takes for " + technique + " (" +
                                   first.resource + ": " + first.reason + ")",
                         .remedy = fitting ? "up to " + text(*fitting) + " px fits" : "no size fits this scene"});

@@ -45,7 +45,8 @@ DofInputs RendererState::sceneInputs(const Shot& shot) {
 
   renderer->setViewpoint({.viewFromWorld = camera.viewFromWorld,
                           .metersPerUnit = shot.lens.metersPerUnit,
-                          .lit = shot.shading == Shading::lit});
+                          .lit = shot.shading == Shading::lit,
+                          .faces = shot.faces});
   const engine::LensOpening opening{passes::apertureRadius(shot.lens) * shared::apertureReach(inputs.aperture),
                                     inputs.lens.focusVergence};
   const auto range = engine::visibleRange(*scene, camera, width, height, opening, shot.lens.metersPerUnit);

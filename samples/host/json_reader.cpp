@@ -17,9 +17,19 @@ using nlohmann::json;
 
 namespace {
 
+// An error line has at most 500 bytes unless the file's name alone is that long; what it quotes of a file may be longer.
+constexpr std::size_t kLineLength = 470;  // Of the parts: what the program puts before and between them is short.
+constexpr std::size_t kFieldLength = 100, kReasonLength = 200, kLeastRemedy = 40;
+
 [[noreturn]] void failFile(const std::string& file, const std::string& field, const std::string& reason,
                            const std::string& remedy) {
-  throw engine::Error({.file = file, .field = field, .reason = reason, .remedy = remedy});
+  engine::ErrorParts parts{.file = file,
+                           .field = engine::shortened(field, kFieldLength),
+                           .reason = engine::shortened(reason, kReasonLength),
+                           .remedy = {}};
+  const std::size_t used = parts.file.size() + parts.field.size() + parts.reason.size();
+  parts.remedy = engine::shortened(remedy, std::max(kLeastRemedy, kLineLength - std::min(kLineLength, used)));
+  throw engine::Error(std::move(parts));
 }
 
 std::string readText(const std::filesystem::path& file) {
@@ -62,29 +72,54 @@ std::string_view quotedToken(std::string_view message) {
   return first == std::string_view::npos ? std::string_view{} : message.substr(first + 1, last - first - 1);
 }
 
+std::string join(const std::string& path, std::string_view name) {
+  return path.empty() ? std::string(name) : path + "." + std::string(name);
+}
+
 /// Refuses objects that give a field twice: of which one would win, JSON says nothing.
 class DuplicateCheck {
  public:
   explicit DuplicateCheck(std::string file) : file_(std::move(file)) {}
 
   bool operator()(json::parse_event_t event, const json& parsed) {
-    if (event == json::parse_event_t::object_start) names_.emplace_back();
-    if (event == json::parse_event_t::object_end) names_.pop_back();
-    if (event == json::parse_event_t::key) {
-      const auto& name = parsed.get_ref<const std::string&>();
-      if (!names_.back().insert(name).second) failFile(file_, name, "is given twice", "remove one of them");
+    using Event = json::parse_event_t;
+    if (event == Event::object_start || event == Event::array_start) {
+      open_.push_back({.isArray = event == Event::array_start});
+      return true;
     }
+    if (event == Event::key) {
+      open_.back().name = parsed.get_ref<const std::string&>();
+      if (!open_.back().names.insert(open_.back().name).second) {
+        failFile(file_, path(), "is given twice", "remove one of them");
+      }
+      return true;
+    }
+    if (event != Event::value) open_.pop_back();
+    if (!open_.empty()) ++open_.back().index;
     return true;
   }
 
  private:
-  std::string file_;
-  std::vector<std::set<std::string>> names_;
-};
+  /// An object or array that has begun and not ended, and what of it is being read.
+  struct Open {
+    bool isArray = false;
+    std::size_t index = 0;
+    std::string name = {};
+    std::set<std::string> names = {};
+  };
 
-std::string join(const std::string& path, std::string_view name) {
-  return path.empty() ? std::string(name) : path + "." + std::string(name);
-}
+  /// Of the value that is being read: "scene[1].path".
+  std::string path() const {
+    std::string text;
+    for (const Open& open : open_) {
+      text = open.isArray ? text + "[" + std::to_string(open.index) + "]" : join(text, open.name);
+    }
+    return text;
+  }
+
+  std::string file_;
+  std::vector<Open> open_;
+};
 
 /// Shortest text that reads back as the same number.
 std::string numberText(double value) {

@@ -5,7 +5,6 @@
 #include <cstring>
 
 #include "engine/error.h"
-#include "engine/image/image_io.h"
 #include "passes/pinhole/pinhole.h"
 #include "rendergraph/compiler.h"
 #include "samples/host/fitting_size.h"
@@ -90,11 +89,6 @@ bool fits(RendererState& state, const Shot& shot, PictureExtent extent, const Re
   return true;
 }
 
-std::optional<engine::Environment> loadEnvironment(const Shot& shot) {
-  if (!shot.environment) return std::nullopt;
-  return engine::prepareEnvironment(engine::readImage(*shot.environment));
-}
-
 }  // namespace
 
 ChosenTechnique techniqueOf(const RenderOptions& options) {
@@ -105,7 +99,7 @@ ChosenTechnique techniqueOf(const RenderOptions& options) {
 }
 
 Renderer::Renderer(engine::Device& device, const Shot& shot, std::vector<std::string>& warnings)
-    : Renderer(device, loadShotScene(shot, warnings), loadEnvironment(shot)) {}
+    : Renderer(device, loadShotScene(shot, warnings), loadShotEnvironment(shot)) {}
 
 Renderer::Renderer(engine::Device& device, engine::Scene scene, const std::optional<engine::Environment>& environment)
     : state_(std::make_unique<RendererState>(device)) {
@@ -203,7 +197,8 @@ Rendering Renderer::render(const Shot& shot, const RenderOptions& options) {
       auto rendering = state_->run(technique, inputs, options, [&](Graph& graph, uint32_t frame) {
         DofInputs now = inputs;
         now.frame = frame;
-        return state_->declareTechnique(graph, now, technique, options.wantDepth);
+        return namingShot(shot, "technique",
+                          [&] { return state_->declareTechnique(graph, now, technique, options.wantDepth); });
       });
       if (options.fixedRoom || !lacksRoom(rendering.statistics)) {
         rendering.warnings = state_->warningsOf(shot, technique.entry, options.parameters, rendering.statistics);
@@ -214,8 +209,9 @@ Rendering Renderer::render(const Shot& shot, const RenderOptions& options) {
   } catch (const rendergraph::GraphError& error) {
     if (error.misuse() != rendergraph::Misuse::overLimit) throw;
     const PictureExtent wanted{shot.width, shot.height};
-    throw tooLarge(wanted, options.technique, error,
-                   largestFitting(wanted, [&](PictureExtent extent) { return fits(*state_, shot, extent, options); }));
+    const auto fitting =
+        largestFitting(wanted, [&](PictureExtent extent) { return fits(*state_, shot, extent, options); });
+    rethrowNamingShot(tooLarge(wanted, options.technique, error, fitting), shot, "resolution");
   }
 }
 
@@ -235,7 +231,9 @@ std::vector<std::string> RendererState::warningsOf(const Shot& shot, const passe
 
 void Renderer::declare(Graph& graph, const Shot& shot, const RenderOptions& options) {
   const auto technique = techniqueOf(options);
-  const auto out = state_->declareTechnique(graph, state_->sceneInputs(shot), technique, options.wantDepth);
+  const DofInputs inputs = state_->sceneInputs(shot);
+  const auto out = namingShot(shot, "technique",
+                              [&] { return state_->declareTechnique(graph, inputs, technique, options.wantDepth); });
   graph.exportImage(out.technique.color, {VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
                                           VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
 }

@@ -3,6 +3,7 @@
 #include "samples/host/shot.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
@@ -68,21 +69,34 @@ void parseLookAt(const JsonNode& node, ShotCamera& camera) {
   if (const auto problem = engine::findProblem(camera)) node.failAt(problem->field, problem->reason, problem->remedy);
 }
 
+engine::CameraChoice parseGltfCamera(const JsonNode& node) {
+  if (!node.isString()) {
+    if (!node.json().is_number()) node.fail("is " + std::string(node.typeName()) + ", must be a number or a string");
+    return static_cast<std::size_t>(node.integer(0, std::numeric_limits<uint32_t>::max()));
+  }
+  std::string name = node.text();
+  if (name.empty()) node.fail("is empty", "name a camera of the scene, or give its number");
+  return name;
+}
+
 ShotCamera parseCamera(const JsonNode& node) {
   node.requireObject({"position", "target", "up", "fovyDeg", "gltfCamera", "near"});
+  constexpr std::array kLookAt = {"position", "target", "up", "fovyDeg"};
+  const auto given = std::ranges::find_if(kLookAt, [&](const char* name) { return node.has(name); });
   ShotCamera camera;
-  if (const auto name = node.find("gltfCamera")) {
-    camera.gltfCamera = name->text();
-    if (camera.gltfCamera->empty()) name->fail("is empty", "name a camera of the scene");
-    for (const auto other : {"position", "target", "up", "fovyDeg"}) {
-      if (node.has(other)) node.failAt(other, "given beside gltfCamera, which has its own", "remove one of them");
+  if (const auto choice = node.find("gltfCamera")) {
+    camera.gltfCamera = parseGltfCamera(*choice);
+    if (given != kLookAt.end()) {
+      node.failAt(*given, "given beside gltfCamera, which has its own", "remove one of them");
     }
+  } else if (given == kLookAt.end()) {
+    camera.gltfCamera = engine::OnlyCamera{};
   } else {
     parseLookAt(node, camera);
   }
   if (const auto near = node.find("near")) {
     camera.nearPlane = near->number();
-    if (!(camera.nearPlane > 0.0)) near->fail("is " + near->json().dump() + ", must be above 0 metres");
+    if (!(*camera.nearPlane > 0.0)) near->fail("is " + near->json().dump() + ", must be above 0 metres");
   }
   return camera;
 }
@@ -183,25 +197,46 @@ void parsePicture(const JsonNode& root, const path& folder, Shot& shot) {
     if (text != "unlit" && text != "lit") shading->fail("is \"" + text + "\", must be \"unlit\" or \"lit\"");
     shot.shading = text == "lit" ? Shading::lit : Shading::unlit;
   }
+  if (const auto node = root.find("faces")) {
+    const auto faces = drawnFacesFrom(node->text());
+    if (!faces) node->fail("is \"" + node->text() + "\", must be \"material\" or \"both\"");
+    shot.faces = *faces;
+  }
 }
 
 }  // namespace
+
+std::optional<engine::DrawnFaces> drawnFacesFrom(std::string_view text) {
+  for (const auto faces : {engine::DrawnFaces::material, engine::DrawnFaces::both}) {
+    if (text == nameOf(faces)) return faces;
+  }
+  return std::nullopt;
+}
+
+std::string_view nameOf(engine::DrawnFaces faces) {
+  return faces == engine::DrawnFaces::both ? "both" : "material";
+}
 
 Shot readShot(const path& file) {
   const auto document = readJsonFile(file);
   const JsonNode root(document, file);
   root.requireObject({"name", "description", "scene", "camera", "lens", "resolution", "background", "environment",
-                      "shading", "technique"});
+                      "shading", "faces", "technique"});
   const path folder = file.parent_path();
 
   Shot shot;
+  shot.file = file;
   const auto name = root.find("name");
   shot.name = name ? name->text() : file.stem().string();
   if (const auto description = root.find("description")) description->text();
   for (const auto& part : root.at("scene", "write [{\"path\": \"scene.glb\"}]").elements()) {
     shot.scene.push_back(parsePart(part, folder));
   }
-  shot.camera = parseCamera(root.at("camera", "write {\"position\", \"target\", \"fovyDeg\"} or {\"gltfCamera\"}"));
+  if (const auto camera = root.find("camera")) {
+    shot.camera = parseCamera(*camera);
+  } else {
+    shot.camera.gltfCamera = engine::OnlyCamera{};
+  }
   shot.lens = parseLens(root.at("lens", "write {\"apertureRadius\", \"focusDistance\"}"));
   parsePicture(root, folder, shot);
   if (const auto technique = root.find("technique")) {

@@ -5,10 +5,13 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/gltf/load_gltf.h"
 #include "engine/scene/camera.h"
+#include "engine/scene/camera_choice.h"
+#include "engine/scene/viewpoint.h"
 #include "passes/lens/physical_lens.h"
 #include "passes/parameters.h"
 
@@ -23,13 +26,15 @@ struct ScenePart {
 };
 
 struct ShotCamera : engine::LookAt {
-  double nearPlane = engine::kDefaultNearPlane;  ///< m, > 0.
-  std::optional<std::string> gltfCamera;         ///< Replaces position, target, up and fovy.
+  /// m, > 0; none: kDefaultNearPlane, or that of the scene's camera.
+  std::optional<double> nearPlane;
+  std::optional<engine::CameraChoice> gltfCamera;  ///< A camera of the scene, instead of position, target, up and fovy.
 };
 
 enum class Shading { unlit, lit };
 
 struct Shot {
+  std::filesystem::path file;  ///< Where it was read from, for messages; empty for one made in memory.
   std::string name;
   std::vector<ScenePart> scene;
   ShotCamera camera;
@@ -38,9 +43,15 @@ struct Shot {
   std::array<float, 3> background = {0.0f, 0.0f, 0.0f};  ///< Linear radiance.
   std::optional<std::filesystem::path> environment;
   Shading shading = Shading::unlit;
+  engine::DrawnFaces faces = engine::DrawnFaces::material;
   std::string technique = "accumulation";
   passes::ParameterSet parameters;
 };
+
+/// The faces that a shot or the command line names, "material" or "both"; nothing for other texts.
+std::optional<engine::DrawnFaces> drawnFacesFrom(std::string_view text);
+/// The name that drawnFacesFrom() reads.
+std::string_view nameOf(engine::DrawnFaces faces);
 
 /// Reads and checks a shot file. Throws engine::Error with file, field (or line and column), reason, remedy.
 Shot readShot(const std::filesystem::path& file);

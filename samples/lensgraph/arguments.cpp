@@ -51,6 +51,17 @@ CLI::Option* addSize(CLI::App& app, std::optional<PictureSize>& size) {
       ->type_name("WxH");
 }
 
+void addFaces(CLI::App& app, std::optional<engine::DrawnFaces>& faces) {
+  app.add_option_function<std::string>(
+         "--faces",
+         [&faces](const std::string& text) {
+           faces = host::drawnFacesFrom(text);
+           if (!faces) failUsage("--faces", "\"" + text + "\" is neither material nor both", "");
+         },
+         "Faces to draw instead of the shot's choice: material leaves out the back faces of single-sided materials")
+      ->type_name("material|both");
+}
+
 void addExposure(CLI::App& app, std::optional<double>& exposure) {
   app.add_option_function<double>(
          "--exposure",
@@ -108,6 +119,7 @@ Action addRender(CLI::App& app) {
   sub->add_option("shot", a->shot, "Shot file")->type_name("SHOT.json")->required();
   addTechnique(*sub, a->technique, false);
   addSize(*sub, a->size);
+  addFaces(*sub, a->faces);
   addExposure(*sub, a->exposureEv);
   addInspection(*sub, a->inspection);
   sub->add_option("--depth-out", a->depthOut, "Write view depth in metres")->type_name("FILE.exr");
@@ -168,6 +180,7 @@ Action addGraph(CLI::App& app) {
   sub->add_option("shot", a->shot, "Shot file")->type_name("SHOT.json")->required();
   addTechnique(*sub, a->technique, false);
   addSize(*sub, a->size);
+  addFaces(*sub, a->faces);
   sub->add_option("--dot", a->dot, "Write it for Graphviz; - is standard output")->type_name("FILE");
   sub->add_option("--json", a->json, "Write it as JSON; - is standard output")->type_name("FILE");
   return [a](const GlobalArguments& global) {

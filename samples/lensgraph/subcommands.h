@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/scene/viewpoint.h"
+
 namespace lensgraph::cli {
 
 struct GlobalArguments {
@@ -42,7 +44,8 @@ struct RenderArguments {
   std::filesystem::path shot;
   TechniqueArguments technique;
   std::optional<PictureSize> size;
-  std::optional<double> exposureEv;  ///< PNG only.
+  std::optional<engine::DrawnFaces> faces;  ///< Instead of the shot's.
+  std::optional<double> exposureEv;         ///< PNG only.
   InspectionArguments inspection;
   std::optional<std::filesystem::path> depthOut;
   std::filesystem::path output;  ///< Empty: none asked for.
@@ -73,6 +76,7 @@ struct GraphArguments {
   std::filesystem::path shot;
   TechniqueArguments technique;
   std::optional<PictureSize> size;
+  std::optional<engine::DrawnFaces> faces;         ///< Instead of the shot's.
   std::optional<std::filesystem::path> dot, json;  ///< At least one; "-" is stdout.
 };
 int runGraph(const GraphArguments& arguments, const GlobalArguments& global);

@@ -19,6 +19,7 @@ layout(location = 2) out vec4 texCoords;
 layout(location = 3) out vec4 vertexColor;
 layout(location = 4) flat out uint materialIndex;
 layout(location = 5) flat out uint isMirrored;  // the object's winding is turned round
+layout(location = 6) flat out uint bothFaces;   // back faces are drawn too
 
 void main() {
   const DrawConstants draw = draws[gl_InstanceIndex];
@@ -29,5 +30,6 @@ void main() {
   vertexColor = color;
   materialIndex = draw.material;
   isMirrored = draw.normalColumns[0].w != 0.0 ? 1u : 0u;
+  bothFaces = draw.bothFaces;
   gl_Position = view.clipFromView * vec4(inView.xyz, 1.0);
 }

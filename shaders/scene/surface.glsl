@@ -32,11 +32,15 @@ vec2 transformedUv(UvTransform transform) {
 
 #include "lighting.glsl"
 
+// A mask is drawn where alpha is at least the cutoff. Interpolation and filtering leave an alpha that is equal to it everywhere
+// some roundings below it, far less than the steps of an 8-bit alpha.
+const float kCutoffRounding = 1.0 - 1e-5;
+
 // Alpha after the material's mode: 1, 0 or 1, or the blend factor.
 float surfaceAlpha(float alpha) {
   const uint mode = materials[materialIndex].alphaMode;
   if (mode == kAlphaOpaque) return 1.0;
-  if (mode == kAlphaMask) return alpha > materials[materialIndex].emissive.w ? 1.0 : 0.0;
+  if (mode == kAlphaMask) return alpha >= kCutoffRounding * materials[materialIndex].emissive.w ? 1.0 : 0.0;
   return alpha;
 }
 

@@ -75,7 +75,7 @@ struct FragmentNode {
   uint next;                 // index + 1 of the next node of this pixel, 0 ends the list; and the flags below
 };
 SHARED_CONST uint kFragmentNextMask = 0x3fffffffu;
-SHARED_CONST uint kFragmentSolid = 0x40000000u;     // of an opaque material: neither alpha-masked nor alpha-blended
+SHARED_CONST uint kFragmentSolid = 0x40000000u;     // opaque, neither alpha-masked nor alpha-blended, and drawn with both faces
 SHARED_CONST uint kFragmentFacesAway = 0x80000000u;
 SHARED_CONST uint kFragmentPending = 0xffffffffu;   // vergence of a node that is being written: no depth has these bits
 

@@ -11,7 +11,8 @@ struct DrawConstants {
   mat4 viewFromObject;    // m; rounded from double
   vec4 normalColumns[3];  // inverse transpose of its 3×3 part, column by column; w of the first: 1 where it mirrors
   uint material;
-  uint padding0, padding1, padding2;
+  uint bothFaces;  // 1: back faces are drawn too
+  uint padding0, padding1;
 };
 
 // uv' = (dot(row0.xyz, (u, v, 1)), dot(row1.xyz, (u, v, 1))); row0.w: UV set

@@ -36,6 +36,11 @@ ordered_json toJson(const ParameterSet& parameters) {
   return json;
 }
 
+/// Where the ray-traced picture of a shot is, if it has one.
+std::filesystem::path rayTraced(const std::string& shotFile) {
+  return std::filesystem::path(shotFile).parent_path() / "dof.exr";
+}
+
 }  // namespace
 
 engine::FloatImage pictureOf(host::Renderer& renderer, const host::Shot& shot, const std::string& technique,
@@ -44,8 +49,7 @@ engine::FloatImage pictureOf(host::Renderer& renderer, const host::Shot& shot, c
 }
 
 engine::FloatImage referenceOf(host::Renderer& renderer, const host::Shot& shot, const std::string& file) {
-  const auto truth = std::filesystem::path(file).parent_path() / "dof.exr";
-  if (std::filesystem::exists(truth)) return engine::readImage(truth);
+  if (const auto truth = rayTraced(file); std::filesystem::exists(truth)) return engine::readImage(truth);
   return pictureOf(renderer, shot, "accumulation", {{"lensSamples", int64_t{1024}}, {"viewsPerFrame", int64_t{8}}});
 }
 
@@ -75,7 +79,9 @@ int run(int argc, char** argv,
     engine::Device device;
     ordered_json scenes = ordered_json::array();
     for (int i = 3; i < argc; ++i) {
-      const host::Shot shot = host::readShot(argv[i]);
+      host::Shot shot = host::readShot(argv[i]);
+      // The ray tracer saw both faces of every surface.
+      if (std::filesystem::exists(rayTraced(argv[i]))) shot.faces = engine::DrawnFaces::both;
       std::vector<std::string> warnings;
       host::Renderer renderer(device, shot, warnings);
       std::printf("%s\n", shot.name.c_str());

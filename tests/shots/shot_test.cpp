@@ -49,6 +49,7 @@ class Shots : public support::GpuTest, public testing::WithParamInterface<Row> {
   void SetUp() override {
     if (!fs::exists(kShots)) GTEST_SKIP() << "no shots at " << kShots;
     shot = host::readShot(folder() / "shot.json");
+    shot.faces = engine::DrawnFaces::both;  // as the ray tracer saw them
     std::vector<std::string> warnings;
     renderer = std::make_unique<host::Renderer>(support::device(), shot, warnings);
   }

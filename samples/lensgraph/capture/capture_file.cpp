@@ -67,6 +67,7 @@ json captureJson(const engine::DeviceDescription& device, const CaptureInput& in
       {"resolution", {rendering.color.width, rendering.color.height}},
       {"lens",
        {{"apertureRadius", passes::apertureRadius(*input.lens)}, {"focusDistance", toJson(input.lens->focusDistance)}}},
+      {"faces", input.faces ? json(host::nameOf(*input.faces)) : json()},
       {"technique", {{"name", choice.name}, {"parameters", std::move(parameters)}}},
       {"executions", rendering.executions},
       {"gpuMs", toJson(rendergraph::spreadOf(measurement.gpuMs))},

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,7 @@ struct CaptureInput {
   std::string source;                        ///< The shot file, or the colour picture.
   std::vector<std::filesystem::path> files;  ///< What the hash covers.
   const passes::Lens* lens = nullptr;
+  std::optional<engine::DrawnFaces> faces;  ///< Of a shot.
 };
 
 /// What the program's capture files say that they are, in their fields "format" and "formatVersion".

@@ -120,6 +120,9 @@ void readConditions(const JsonNode& root, CaptureFacts& facts) {
   facts.conditions["lens"] = lens.json().dump();
   if (!lens.at("focusDistance", kRemedy).isString()) lens.at("focusDistance", kRemedy).number();
   textAt(device, "type");
+  // Captures of pictures have none, nor have those of versions that drew both faces always.
+  const auto faces = root.find("faces");
+  if (faces && faces->isString()) facts.conditions["faces"] = faces->text();
   const JsonNode technique = root.at("technique", kRemedy);
   facts.conditions["technique"] = textAt(technique, "name");
   for (const auto& [name, value] : technique.at("parameters", kRemedy).fields()) {

@@ -17,6 +17,7 @@ int runGraph(const GraphArguments& arguments, const GlobalArguments& global) {
     shot.width = arguments.size->width;
     shot.height = arguments.size->height;
   }
+  shot.faces = arguments.faces.value_or(shot.faces);
   const auto choice = chooseTechnique({shot.technique, shot.parameters}, arguments.technique);
   if (arguments.dot && *arguments.dot != "-") checkOutput(*arguments.dot, "--dot");
   if (arguments.json && *arguments.json != "-") checkOutput(*arguments.json, "--json");

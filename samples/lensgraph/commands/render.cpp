@@ -25,7 +25,7 @@ void writeOutputs(const RenderArguments& arguments, const host::Shot& shot, cons
                   const Inspection& inspection) {
   writePicture(arguments.output, rendering.color, arguments.exposureEv);
   if (arguments.depthOut) engine::writeImage(*arguments.depthOut, rendering.depth);
-  CaptureInput input{arguments.shot.string(), {arguments.shot}, &shot.lens};
+  CaptureInput input{arguments.shot.string(), {arguments.shot}, &shot.lens, shot.faces};
   for (const auto& part : shot.scene) input.files.push_back(part.path);
   inspection.write(device, input, choice, rendering);
 }
@@ -38,6 +38,7 @@ int runRender(const RenderArguments& arguments, const GlobalArguments& global) {
     shot.width = arguments.size->width;
     shot.height = arguments.size->height;
   }
+  shot.faces = arguments.faces.value_or(shot.faces);
   const auto choice = chooseTechnique({shot.technique, shot.parameters}, arguments.technique);
   Inspection inspection(arguments.inspection);
   checkOutputs(arguments, inspection);

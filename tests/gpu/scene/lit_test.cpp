@@ -276,6 +276,7 @@ TEST_F(Lit, BothFacesOfASurfaceAreLit) {
   auto front = wall(matte(glm::vec3(1.0f)));
   front.lights = {sun};
   auto back = front;
+  back.materials[0].doubleSided = true;
   for (auto& normal : back.primitives[0].normals) normal = -normal;
   std::swap(back.primitives[0].indices[1], back.primitives[0].indices[2]);
   std::swap(back.primitives[0].indices[4], back.primitives[0].indices[5]);

@@ -279,6 +279,7 @@ TEST_F(MultilayerFiltering, InsidesOfSolidsAreLeftOut) {
   engine::Scene box;
   addBox(box, {-0.05f, -0.05f, -1.0f}, {0.05f, 0.05f, -0.8f}, support::addMaterial(box, {0.0f, 0.0f, 0.0f, 1.0f}));
   auto shot = support::smallShot(96, 54);
+  shot.faces = engine::DrawnFaces::both;
   shot.background = {1.0f, 1.0f, 1.0f};
   shot.lens.apertureRadius = 0.08;
   host::Renderer renderer(support::device(), box, std::nullopt);

@@ -64,7 +64,8 @@ TEST_F(ShotFile, TakesDefaultsForWhatIsAbsent) {
   EXPECT_EQ(shot.technique, "accumulation");
   EXPECT_TRUE(shot.parameters.empty());
   EXPECT_EQ(shot.camera.up, glm::dvec3(0, 1, 0));
-  EXPECT_EQ(shot.camera.nearPlane, 0.01);
+  EXPECT_EQ(shot.camera.nearPlane, std::nullopt);
+  EXPECT_EQ(shot.camera.gltfCamera, std::nullopt);
   EXPECT_EQ(shot.lens.apertureRadius, 0.03);
   EXPECT_EQ(shot.lens.fovModel, passes::FovModel::pinhole);
   ASSERT_EQ(shot.scene.size(), 1u);
@@ -139,8 +140,31 @@ TEST_F(ShotFile, ZeroFStopAndZeroRadiusAreLegal) {
 
 TEST_F(ShotFile, ReadsCameraOfTheScene) {
   const auto shot = read(with("/camera", {{"gltfCamera", "front"}, {"near", 0.1}}));
-  EXPECT_EQ(shot.camera.gltfCamera, "front");
+  EXPECT_EQ(shot.camera.gltfCamera, engine::CameraChoice("front"));
   EXPECT_EQ(shot.camera.nearPlane, 0.1);
+}
+
+TEST_F(ShotFile, ReadsTheNumberOfACameraOfTheScene) {
+  for (const json& number : {json(2), json(2.0)}) {
+    EXPECT_EQ(read(with("/camera", {{"gltfCamera", number}})).camera.gltfCamera, engine::CameraChoice(std::size_t{2}));
+  }
+  EXPECT_EQ(read(with("/camera", {{"gltfCamera", "2"}})).camera.gltfCamera, engine::CameraChoice("2"));
+}
+
+TEST_F(ShotFile, WithoutACameraTakesTheOnlyOneOfTheScene) {
+  auto bare = minimal();
+  bare.erase("camera");
+  for (const json& shot : {bare, with("/camera", json::object()), with("/camera", {{"near", 0.5}})}) {
+    EXPECT_EQ(read(shot).camera.gltfCamera, engine::CameraChoice(engine::OnlyCamera{}));
+  }
+  EXPECT_EQ(read(with("/camera", {{"near", 0.5}})).camera.nearPlane, 0.5);
+  EXPECT_EQ(read(bare).camera.nearPlane, std::nullopt);
+}
+
+TEST_F(ShotFile, ReadsFaces) {
+  EXPECT_EQ(read(minimal()).faces, engine::DrawnFaces::material);
+  EXPECT_EQ(read(with("/faces", "material")).faces, engine::DrawnFaces::material);
+  EXPECT_EQ(read(with("/faces", "both")).faces, engine::DrawnFaces::both);
 }
 
 TEST_F(ShotFile, ReadsPictureAndTechnique) {
@@ -180,6 +204,29 @@ TEST_F(ShotFile, RefusesAFieldGivenTwice) {
   EXPECT_THAT(error.reason, HasSubstr("twice"));
 }
 
+TEST_F(ShotFile, TellsThePathOfAFieldGivenTwice) {
+  EXPECT_EQ(errorOf(std::string(R"({"camera": {"up": [0, 1, 0], "position": [], "position": []}})")).field,
+            "camera.position");
+  EXPECT_EQ(errorOf(std::string(R"({"a": [{}, [1, {}], {"path": {}, "x": {"y": 1}, "path": 1}]})")).field, "a[2].path");
+  EXPECT_EQ(errorOf(std::string(R"([[], [], {"a": 1, "a": 2}])")).field, "[2].a");
+}
+
+TEST_F(ShotFile, ErrorsAreShortHoweverLongTheirCauseIs) {
+  const std::string text(100000, 'x');
+  const auto lengthOf = [&](const std::string& shot) {
+    const auto parts = errorOf(shot);
+    return parts.field.size() + parts.reason.size() + parts.remedy.size();
+  };
+  for (const auto& shot : {with("/shading", text), with("/faces", text), with("/" + text, 1), with("/lens/" + text, 1),
+                           with("/scene/0/path", text), with("/technique", {{"name", text}}),
+                           with("/technique", {{"name", "pinhole"}, {text, 1}})}) {
+    EXPECT_LT(lengthOf(shot.dump()), 450u);
+  }
+  EXPECT_LT(lengthOf("{\"" + text + "\n\": 1}"), 450u) << "a control character";
+  EXPECT_LT(lengthOf("{\"" + text + "\": 1, \"" + text + "\": 1}"), 450u) << "a field given twice";
+  EXPECT_LT(lengthOf("{\"a\": 1" + std::string(100000, '0') + "}"), 450u) << "a number that overflows";
+}
+
 TEST_F(ShotFile, RefusesFilesThatAreNone) {
   EXPECT_THAT(errorOf(std::string()).reason, HasSubstr("empty"));
   EXPECT_THROW(host::readShot(folder_.path() / "absent.json"), engine::Error);
@@ -203,7 +250,7 @@ TEST_F(ShotFile, NamesAMissingSceneFile) {
 }
 
 TEST_F(ShotFile, NamesMissingFields) {
-  for (const std::string field : {"scene", "camera", "lens"}) {
+  for (const std::string field : {"scene", "lens"}) {
     auto shot = minimal();
     shot.erase(field);
     EXPECT_EQ(errorOf(shot).field, field);
@@ -278,6 +325,17 @@ constexpr BadField kBadFields[] = {
     {"/camera/near", "0", "camera.near"},
     {"/camera/gltfCamera", "\"front\"", "camera.position"},
     {"/camera", R"({"gltfCamera": ""})", "camera.gltfCamera"},
+    {"/camera", R"({"gltfCamera": -1})", "camera.gltfCamera"},
+    {"/camera", R"({"gltfCamera": 0.5})", "camera.gltfCamera"},
+    {"/camera", R"({"gltfCamera": 1e300})", "camera.gltfCamera"},
+    {"/camera", R"({"gltfCamera": null})", "camera.gltfCamera"},
+    {"/camera", R"({"gltfCamera": [0]})", "camera.gltfCamera"},
+    {"/camera", R"({"target": [0, 0, 0]})", "camera.position"},
+    {"/camera", R"({"fovyDeg": 40})", "camera.position"},
+    {"/camera", "null", "camera"},
+    {"/camera/position", "[0, 1e300, 0]", "camera.position"},
+    {"/faces", "\"front\"", "faces"},
+    {"/faces", "true", "faces"},
     {"/scene", "{}", "scene"},
     {"/scene/0/path", "\"\"", "scene[0].path"},
     {"/scene/0/path", "7", "scene[0].path"},

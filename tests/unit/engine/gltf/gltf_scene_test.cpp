@@ -132,7 +132,7 @@ TEST(GltfScene, Cameras) {
   builder.addNode({{"camera", 2}});
   std::vector<std::string> warnings;
   const Scene scene = load(builder, &warnings);
-  ASSERT_EQ(scene.cameras.size(), 2u);
+  ASSERT_EQ(scene.cameras.size(), 3u);
   const engine::SceneCamera* wide = engine::findCamera(scene, "wide");
   ASSERT_NE(wide, nullptr);
   EXPECT_EQ(engine::findCamera(scene, "node"), wide);
@@ -143,7 +143,37 @@ TEST(GltfScene, Cameras) {
   ASSERT_NE(engine::findCamera(scene, "tele"), nullptr);
   EXPECT_EQ(engine::findCamera(scene, "tele")->zfar, 50.0);
   EXPECT_EQ(engine::findCamera(scene, "none"), nullptr);
-  EXPECT_THAT(warnings, ElementsAre(HasSubstr("cameras[2]: only perspective cameras are read")));
+  EXPECT_EQ(scene.cameras[2].type, engine::CameraType::orthographic);
+  EXPECT_THAT(warnings, IsEmpty()) << "it is only wrong to choose it";
+}
+
+TEST(GltfScene, CamerasAreInTheOrderOfTheFilesListWhateverPlacesThem) {
+  GltfBuilder builder;
+  for (const char* name : {"first", "unplaced", "second", "third"}) {
+    builder.json["cameras"].push_back(
+        {{"type", "perspective"}, {"name", name}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}});
+  }
+  builder.addNode({{"camera", 3}});
+  builder.addNode({{"camera", 0}, {"name", "one"}});
+  builder.addNode({{"camera", 2}});
+  builder.addNode({{"camera", 0}, {"name", "another"}});
+  const Scene scene = load(builder);
+  std::vector<std::string> names;
+  for (const auto& camera : scene.cameras) names.push_back(camera.name + " " + camera.nodeName);
+  EXPECT_THAT(names, ElementsAre("first one", "first another", "second ", "third "));
+  EXPECT_EQ(scene.cameras[2].fileIndex, 2u);
+}
+
+TEST(GltfScene, NonsenseInACameraDoesNotStopTheScene) {
+  GltfBuilder builder = triangleFile();
+  builder.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0}, {"znear", 0}}}},
+                             {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}}};
+  builder.addNode({{"camera", 0}});
+  builder.addNode({{"camera", 1}, {"scale", {1e308, 1e308, 1e308}}, {"children", {3}}});
+  builder.json["nodes"].push_back({{"camera", 1}, {"scale", {1e308, 1e308, 1e308}}});
+  const Scene scene = load(builder);
+  EXPECT_EQ(scene.instances.size(), 1u);
+  EXPECT_EQ(scene.cameras.size(), 3u);
 }
 
 TEST(GltfScene, PunctualLights) {
