@@ -10,7 +10,7 @@ namespace lensgraph::host {
 
 engine::Scene loadShotScene(const Shot& shot, std::vector<std::string>& warnings) {
   engine::Scene scene;
-  const engine::GltfOptions options{.loadShadingTextures = shot.shading == Shading::lit};
+  const engine::GltfOptions options{.isLit = shot.shading == Shading::lit};
   for (const auto& part : shot.scene) {
     const glm::dmat4 worldFromFile = engine::worldFromFileTransform(part.transform);
     for (auto& warning : engine::appendGltf(scene, part.path, worldFromFile, options)) {

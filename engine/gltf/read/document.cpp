@@ -1,20 +1,22 @@
-// From a file's bytes to a checked document: container, JSON, buffers, extensions.
+// From a file's bytes to a checked document: container, JSON, version, extensions.
 //
-// tinygltf gets only JSON that has been checked, without buffers, images and animations. Its own handling of
-// those reads past the end of truncated .glb files, forms pointers outside buffers for image views, refuses
-// external buffers longer than byteLength (legal), and turns '+' in file names into blanks; so they are read
-// here.
+// tinygltf gets only JSON that has been checked, without buffers, views, accessors, images and animations. Its own
+// handling of those reads past the end of truncated .glb files, forms pointers outside buffers for image views, refuses
+// external buffers longer than byteLength and indices without a buffer view (both legal), and turns '+' in file names
+// into blanks; so they are read here.
+#include "engine/gltf/read/document.h"
+
 #include <algorithm>
-#include <array>
-#include <cstring>
-#include <fstream>
+#include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <string_view>
-#include <system_error>
+#include <utility>
 
-#include "engine/error.h"
-#include "engine/gltf/check.h"
-#include "engine/gltf/internal.h"
+#include "engine/gltf/read/check.h"
+#include "engine/gltf/read/container.h"
+#include "engine/gltf/read/json_text.h"
+#include "engine/gltf/read/uri.h"
 
 namespace lensgraph::engine::gltf {
 namespace {
@@ -22,296 +24,222 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-// Deeper JSON than this is no glTF file but an attack on recursive readers, such as tinygltf's of "extras".
-constexpr int kMaxNesting = 100;
+// A .glb cannot be longer.
+constexpr uint64_t kMaxFileBytes = uint64_t{1} << 32;
 
 constexpr std::string_view kReadExtensions[] = {
-    "KHR_lights_punctual",   "KHR_materials_emissive_strength", "KHR_materials_unlit",
-    "KHR_mesh_quantization", "KHR_texture_transform",
+    "EXT_mesh_gpu_instancing", "EXT_meshopt_compression",         "KHR_draco_mesh_compression",
+    "KHR_lights_punctual",     "KHR_materials_emissive_strength", "KHR_materials_transmission",
+    "KHR_materials_unlit",     "KHR_mesh_quantization",           "KHR_meshopt_compression",
+    "KHR_node_visibility",     "KHR_texture_transform",
+};
+// Part of what KHR_materials_transmission says; without it glass is drawn thin.
+constexpr std::string_view kVolume = "KHR_materials_volume";
+// Not read, but named when a texture has nothing else.
+constexpr std::string_view kTextureExtensions[] = {
+    "EXT_texture_avif",
+    "EXT_texture_webp",
+    "KHR_texture_basisu",
+    "MSFT_texture_dds",
 };
 
-bool isReadExtension(const std::string& name) {
-  return std::find(std::begin(kReadExtensions), std::end(kReadExtensions), name) != std::end(kReadExtensions);
+template <typename Names>
+bool contains(const Names& names, std::string_view name) {
+  return std::find(std::begin(names), std::end(names), name) != std::end(names);
 }
 
-// Bytes of a file; `reason` says why not when there are none.
-std::optional<std::vector<uint8_t>> fileBytes(const fs::path& path, std::string& reason) {
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (!fs::exists(status)) {
-    reason = "no such file";
-    return std::nullopt;
-  }
-  if (fs::is_directory(status)) {
-    reason = "is a folder";
-    return std::nullopt;
-  }
-  std::ifstream stream(path, std::ios::binary | std::ios::ate);
-  const std::streamoff length = stream ? static_cast<std::streamoff>(stream.tellg()) : -1;
-  std::vector<uint8_t> bytes(length > 0 ? static_cast<size_t>(length) : 0);
-  if (length >= 0) stream.seekg(0).read(reinterpret_cast<char*>(bytes.data()), length);
-  if (!stream || length < 0) {
-    reason = "cannot be read";
-    return std::nullopt;
-  }
-  return bytes;
+// ---- Version
+
+void failIfVersion1(const Source& source, const Json& root) {
+  const Json asset = root.is_object() ? root.value("asset", Json()) : Json();
+  const Json version = asset.is_object() ? asset.value("version", Json()) : Json();
+  const std::string text = version.is_string() ? version.get<std::string>() : version.dump();
+  if (text.starts_with("2.")) return;
+  // glTF 1.0 keeps by name what glTF 2.0 numbers; its asset and version may be left out.
+  const auto isByName = [&](const char* member) { return root.is_object() && root.value(member, Json()).is_object(); };
+  if (text == "1" || text.starts_with("1.") || isByName("meshes") || isByName("accessors") || isByName("buffers"))
+    failVersion1(source);
 }
 
-// ---- Container
-
-struct Chunks {
-  std::string_view json;
-  std::optional<std::span<const uint8_t>> binary;
-};
-
-uint32_t littleEndian32(const uint8_t* bytes) {
-  return uint32_t{bytes[0]} | uint32_t{bytes[1]} << 8 | uint32_t{bytes[2]} << 16 | uint32_t{bytes[3]} << 24;
+// "2.1" as 2, 1. None for what is no version.
+std::optional<std::pair<int, int>> versionOf(const std::string& text) {
+  int major = 0, minor = 0, length = 0;
+  if (text.size() > 20 || std::sscanf(text.c_str(), "%9d.%9d%n", &major, &minor, &length) != 2) return std::nullopt;
+  if (static_cast<size_t>(length) != text.size() || major < 0 || minor < 0) return std::nullopt;
+  return std::pair(major, minor);
 }
 
-std::string_view asText(std::span<const uint8_t> bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
-// glTF 2.0 §4.4: 12 byte header, then chunks of length, type, data.
-Chunks splitGlb(const Document& document, std::span<const uint8_t> bytes) {
-  constexpr uint32_t kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
-  const std::string remedy = "export or copy the file again";
-  if (bytes.size() < 20) document.fail("", "truncated .glb: " + std::to_string(bytes.size()) + " bytes", remedy);
-  if (const uint32_t version = littleEndian32(bytes.data() + 4); version != 2) {
-    document.fail("", "glTF binary version " + std::to_string(version) + ", only 2 is read");
-  }
-  const uint32_t length = littleEndian32(bytes.data() + 8);
-  if (length > bytes.size()) {
-    document.fail("", "truncated .glb: " + std::to_string(bytes.size()) + " of " + std::to_string(length) + " bytes",
-                  remedy);
-  }
-  bytes = bytes.first(std::max(length, 12u));
-  Chunks chunks;
-  for (size_t offset = 12; bytes.size() - offset >= 8;) {
-    const size_t chunkLength = littleEndian32(bytes.data() + offset);
-    const uint32_t type = littleEndian32(bytes.data() + offset + 4);
-    if (chunkLength > bytes.size() - offset - 8)
-      document.fail("", "damaged .glb: a chunk reaches past the end", remedy);
-    const auto data = bytes.subspan(offset + 8, chunkLength);
-    if (offset == 12 && type != kJsonChunk) document.fail("", "damaged .glb: the first chunk is not JSON", remedy);
-    if (offset == 12) chunks.json = asText(data);
-    if (offset != 12 && type == kBinaryChunk && !chunks.binary) chunks.binary = data;
-    offset += 8 + chunkLength;
-  }
-  // Some writers pad the JSON with zeros instead of blanks.
-  while (chunks.json.ends_with('\0')) chunks.json.remove_suffix(1);
-  if (chunks.json.empty()) document.fail("", "damaged .glb: no JSON chunk", remedy);
-  return chunks;
-}
-
-Chunks splitContainer(const Document& document, std::span<const uint8_t> bytes) {
-  if (bytes.empty()) document.fail("", "is empty (0 bytes)");
-  if (asText(bytes).starts_with("glTF")) return splitGlb(document, bytes);
-  std::string_view text = asText(bytes);
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-  return {.json = text, .binary = std::nullopt};
-}
-
-// ---- JSON
-
-void requireShallow(const Document& document, std::string_view text) {
-  int depth = 0;
-  bool isInString = false;
-  for (size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (isInString) {
-      if (c == '\\') ++i;
-      if (c == '"') isInString = false;
-      continue;
-    }
-    if (c == '"') isInString = true;
-    if (c == '{' || c == '[') ++depth;
-    if (c == '}' || c == ']') --depth;
-    if (depth > kMaxNesting)
-      document.fail("", "its JSON is nested deeper than " + std::to_string(kMaxNesting) + " levels");
-  }
-}
-
-Json parseJson(const Document& document, std::string_view text) {
-  requireShallow(document, text);
-  try {
-    return Json::parse(text);
-  } catch (const Json::exception& error) {
-    // "[json.exception.parse_error.101] parse error at line 1, column 2: …": the bracket says nothing to a
-    // user.
-    const std::string_view message = error.what();
-    const size_t start = message.find("] ");
-    document.fail("", "is not valid glTF JSON: " +
-                          std::string(start == std::string_view::npos ? message : message.substr(start + 2)));
-  }
-}
-
-void checkVersionAndExtensions(Document& document, const Json& root) {
-  const std::string version = root["asset"]["version"].get<std::string>();
+void checkVersion(const Source& source, const Json& asset) {
+  const std::string version = asset["version"].get<std::string>();
   if (!version.starts_with("2."))
-    document.fail("asset.version", "glTF " + version + " is not read", "convert it to glTF 2.0");
+    source.fail("asset.version", "glTF " + version + " is not read", "convert it to glTF 2.0");
+  if (!asset.contains("minVersion")) return;
+  const std::string least = asset["minVersion"].get<std::string>();
+  const auto number = versionOf(least);
+  if (!number) source.fail("asset.minVersion", "'" + least + "' is no version such as 2.0");
+  if (*number > std::pair(2, 0))
+    source.fail("asset.minVersion", "needs glTF " + least + ", only 2.0 is read", "export as glTF 2.0");
+}
+
+// ---- Extensions
+
+void checkExtensions(const Source& source, const Json& root, Warnings& warnings) {
   std::string unread;
   for (const Json& name : root.value("extensionsRequired", Json::array())) {
-    if (!isReadExtension(name)) unread += (unread.empty() ? "" : ", ") + name.get<std::string>();
+    const std::string& text = name.get_ref<const std::string&>();
+    if (!contains(kReadExtensions, text) && text != kVolume) unread += (unread.empty() ? "" : ", ") + text;
   }
-  if (!unread.empty()) {
-    document.fail("extensionsRequired", "needs " + unread + ", which is not supported", "export without it");
-  }
+  if (!unread.empty())
+    source.fail("extensionsRequired", "needs " + unread + ", which is not supported", "export without it");
   for (const Json& name : root.value("extensionsUsed", Json::array())) {
-    if (!isReadExtension(name)) document.warn("extension " + name.get<std::string>() + " is ignored");
+    const std::string& text = name.get_ref<const std::string&>();
+    if (!contains(kReadExtensions, text)) warnings.add("extension " + text + " is ignored");
   }
 }
 
-// ---- URIs
-
-std::optional<std::vector<uint8_t>> fromBase64(std::string_view text) {
-  const auto valueOf = [](char c) -> int {
-    if (c >= 'A' && c <= 'Z') return c - 'A';
-    if (c >= 'a' && c <= 'z') return c - 'a' + 26;
-    if (c >= '0' && c <= '9') return c - '0' + 52;
-    if (c == '+' || c == '-') return 62;
-    if (c == '/' || c == '_') return 63;
-    return -1;
-  };
-  while (text.ends_with('=')) text.remove_suffix(1);
-  std::vector<uint8_t> bytes;
-  bytes.reserve(text.size() / 4 * 3 + 3);
-  uint32_t bits = 0;
-  int bitCount = 0;
-  for (char c : text) {
-    const int value = valueOf(c);
-    if (value < 0) return std::nullopt;
-    bits = (bits << 6 | static_cast<uint32_t>(value)) & 0xFFFFu;
-    bitCount += 6;
-    if (bitCount < 8) continue;
-    bitCount -= 8;
-    bytes.push_back(static_cast<uint8_t>(bits >> bitCount));
-  }
-  return bytes;
-}
-
-std::string percentDecoded(std::string_view uri) {
-  const auto hexOf = [](char c) -> int {
-    if (c >= '0' && c <= '9') return c - '0';
-    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-    return -1;
-  };
-  std::string text;
-  for (size_t i = 0; i < uri.size(); ++i) {
-    const int high = i + 2 < uri.size() && uri[i] == '%' ? hexOf(uri[i + 1]) : -1;
-    const int low = high >= 0 ? hexOf(uri[i + 2]) : -1;
-    if (low < 0) {
-      text += uri[i];
-      continue;
+// Takes out what nothing reads, so that tinygltf does not parse it either.
+void dropUnread(Json& value) {
+  if (value.is_object()) {
+    value.erase("extras");
+    if (const auto extensions = value.find("extensions"); extensions != value.end() && extensions->is_object()) {
+      for (auto member = extensions->begin(); member != extensions->end();) {
+        const bool isKnown = contains(kReadExtensions, member.key()) || contains(kTextureExtensions, member.key());
+        member = isKnown ? std::next(member) : extensions->erase(member);
+      }
     }
-    text += static_cast<char>(high * 16 + low);
-    i += 2;
   }
-  return text;
+  if (value.is_structured()) {
+    for (Json& member : value) dropUnread(member);
+  }
 }
 
-// ---- Buffers and images
+// ---- Parts that tinygltf does not get
 
-std::vector<uint8_t> bufferBytes(const Document& document, const Json& buffer, size_t index, const Chunks& chunks) {
-  const uint64_t byteLength = buffer["byteLength"].get<uint64_t>();
-  std::vector<uint8_t> bytes;
-  if (buffer.contains("uri")) {
-    bytes = readUri(document, buffer["uri"].get<std::string>(), at("buffers", index, ".uri"));
-  } else if (index == 0 && chunks.binary) {
-    bytes.assign(chunks.binary->begin(), chunks.binary->end());
-  } else {
-    document.fail(at("buffers", index, ".uri"), "is missing and there is no binary chunk to take its place");
-  }
-  if (bytes.size() < byteLength) {
-    document.fail(at("buffers", index, ".byteLength"),
-                  "promises " + std::to_string(byteLength) + " bytes, there are " + std::to_string(bytes.size()));
-  }
-  bytes.resize(byteLength);
-  return bytes;
+int accessorTypeOf(const std::string& name) {
+  constexpr std::pair<std::string_view, int> kTypes[] = {{"SCALAR", TINYGLTF_TYPE_SCALAR}, {"VEC2", TINYGLTF_TYPE_VEC2},
+                                                         {"VEC3", TINYGLTF_TYPE_VEC3},     {"VEC4", TINYGLTF_TYPE_VEC4},
+                                                         {"MAT2", TINYGLTF_TYPE_MAT2},     {"MAT3", TINYGLTF_TYPE_MAT3},
+                                                         {"MAT4", TINYGLTF_TYPE_MAT4}};
+  const auto found = std::find_if(std::begin(kTypes), std::end(kTypes), [&](const auto& t) { return t.first == name; });
+  return found == std::end(kTypes) ? -1 : found->second;
 }
 
-// Takes buffers and images out of the JSON into the model; tinygltf never sees them.
-void takeBinaries(Json& root, const Chunks& chunks, std::vector<tinygltf::Buffer>& buffers,
-                  std::vector<tinygltf::Image>& images, const Document& document) {
-  const Json bufferList = root.value("buffers", Json::array());
-  for (size_t i = 0; i < bufferList.size(); ++i) {
-    buffers.emplace_back().data = bufferBytes(document, bufferList[i], i, chunks);
+tinygltf::Accessor accessorFrom(const Json& from) {
+  tinygltf::Accessor accessor;
+  accessor.bufferView = from.value("bufferView", -1);
+  accessor.byteOffset = from.value("byteOffset", size_t{0});
+  accessor.normalized = from.value("normalized", false);
+  accessor.componentType = from["componentType"].get<int>();
+  accessor.count = from["count"].get<size_t>();
+  accessor.type = accessorTypeOf(from["type"].get<std::string>());
+  const auto sparse = from.find("sparse");
+  accessor.sparse.isSparse = sparse != from.end();
+  if (accessor.sparse.isSparse) {
+    const Json &indices = (*sparse)["indices"], &values = (*sparse)["values"];
+    accessor.sparse.count = (*sparse)["count"].get<int>();
+    accessor.sparse.indices.bufferView = indices["bufferView"].get<int>();
+    accessor.sparse.indices.byteOffset = indices.value("byteOffset", 0);
+    accessor.sparse.indices.componentType = indices["componentType"].get<int>();
+    accessor.sparse.values.bufferView = values["bufferView"].get<int>();
+    accessor.sparse.values.byteOffset = values.value("byteOffset", 0);
   }
-  for (const Json& source : root.value("images", Json::array())) {
-    tinygltf::Image& image = images.emplace_back();
-    image.name = source.value("name", std::string());
-    image.uri = source.value("uri", std::string());
-    image.bufferView = source.value("bufferView", -1);
+  return accessor;
+}
+
+tinygltf::Image imageFrom(Json& from) {
+  tinygltf::Image image;
+  image.name = from.value("name", std::string());
+  if (from.contains("uri")) image.uri = std::move(from["uri"].get_ref<std::string&>());
+  image.bufferView = from.value("bufferView", -1);
+  return image;
+}
+
+// Accessors, images and the indices of primitives, taken out of the JSON.
+struct Taken {
+  std::vector<tinygltf::Accessor> accessors;
+  std::vector<tinygltf::Image> images;
+  std::vector<std::vector<int>> indices;  ///< By mesh and primitive.
+};
+
+Taken takeOut(Json& root) {
+  Taken taken;
+  // Absent arrays become null, which has no elements.
+  for (const Json& from : root["accessors"]) taken.accessors.push_back(accessorFrom(from));
+  for (Json& from : root["images"]) taken.images.push_back(imageFrom(from));
+  if (!root.contains("meshes")) root["meshes"] = Json::array();
+  for (Json& mesh : root["meshes"]) {
+    std::vector<int>& indices = taken.indices.emplace_back();
+    for (Json& primitive : mesh["primitives"]) {
+      indices.push_back(primitive.value("indices", -1));
+      primitive.erase("indices");
+    }
   }
-  root.erase("buffers");
-  root.erase("images");
+  for (const char* member : {"accessors", "images", "animations"}) root.erase(member);
+  return taken;
+}
+
+tinygltf::Model modelFrom(const Source& source, Json root) {
+  Taken taken = takeOut(root);
+  const std::string text = root.dump();
+  root = nullptr;  // of use no more, and larger than the text
+  tinygltf::TinyGLTF loader;
+  tinygltf::Model model;
+  std::string errors, warnings;
+  const bool isRead = loader.LoadASCIIFromString(&model, &errors, &warnings, text.data(),
+                                                 static_cast<unsigned>(text.size()), "", tinygltf::NO_REQUIRE);
+  if (!isRead || model.meshes.size() != taken.indices.size()) source.fail("", "is not valid glTF: " + errors);
+  for (size_t m = 0; m < model.meshes.size(); ++m) {
+    std::vector<tinygltf::Primitive>& primitives = model.meshes[m].primitives;
+    if (primitives.size() != taken.indices[m].size()) source.fail(at("meshes", m), "is not valid glTF: " + errors);
+    for (size_t p = 0; p < primitives.size(); ++p) primitives[p].indices = taken.indices[m][p];
+  }
+  model.accessors = std::move(taken.accessors);
+  model.images = std::move(taken.images);
+  return model;
 }
 
 }  // namespace
 
-void Document::fail(const std::string& field, const std::string& reason, const std::string& remedy) const {
-  throw Error(ErrorParts{.file = file, .field = field, .reason = reason, .remedy = remedy});
+void Document::takeMemory(uint64_t loaded, uint64_t stored, const std::string& field) {
+  if (memory_.take(loaded, stored, bytesHeld())) return;
+  fail(field,
+       "asks for more geometry than the file holds: what is repeated or all zeros may take " +
+           std::to_string(MemoryLimit::repeatedLimit(bytesHeld()) / 1'000'000) + " MB",
+       "place a mesh by several nodes instead of repeating its primitives");
 }
 
-void Document::warn(const std::string& text) {
-  std::string line = file + ": " + text;
-  if (std::find(warnings.begin(), warnings.end(), line) == warnings.end()) warnings.push_back(std::move(line));
-}
-
-std::string at(const char* array, size_t index, const std::string& member) {
-  return std::string(array) + "[" + std::to_string(index) + "]" + member;
-}
-
-std::vector<uint8_t> readUri(const Document& document, const std::string& uri, const std::string& field) {
-  const std::string_view text = uri;
-  if (text.starts_with("data:")) {
-    constexpr std::string_view kBase64 = ";base64,";
-    const size_t start = text.find(kBase64);
-    if (start == std::string_view::npos) document.fail(field, "data URI is not base64");
-    auto bytes = fromBase64(text.substr(start + kBase64.size()));
-    if (!bytes) document.fail(field, "data URI holds characters that are not base64");
-    return std::move(*bytes);
-  }
-  if (text.find("://") != std::string_view::npos) {
-    document.fail(field, "'" + uri.substr(0, 80) + "' is not a local file", "download it and make the URI relative");
-  }
-  const std::string name = percentDecoded(text);
-  if (name.empty()) document.fail(field, "is empty");
-  std::string reason;
-  auto bytes = fileBytes(document.folder / name, reason);
-  if (!bytes) document.fail(field, "'" + name + "': " + reason, "put it beside the glTF file");
-  return std::move(*bytes);
+void Document::addDecoded(int bufferView, uint64_t bytes) {
+  if (decodedViews_.insert(bufferView).second) bytesDecoded_ += bytes;
 }
 
 Document readDocument(const fs::path& path) {
-  Document document;
-  document.file = path.string();
-  document.folder = path.parent_path();
+  Source source{.file = path.string(), .folder = path.parent_path()};
   std::string reason;
-  const auto bytes = fileBytes(path, reason);
-  if (!bytes) document.fail("", reason);
+  const auto bytes = fileBytes(path, kMaxFileBytes, reason);
+  if (!bytes) source.fail("", reason);
 
-  const Chunks chunks = splitContainer(document, *bytes);
-  Json root = parseJson(document, chunks.json);
-  checkStructure(root, document.file);
-  checkVersionAndExtensions(document, root);
-  if (!root.value("animations", Json::array()).empty()) document.warn("animations are ignored, the rest pose is drawn");
-  root.erase("animations");
-  std::vector<tinygltf::Buffer> buffers;
-  std::vector<tinygltf::Image> images;
-  takeBinaries(root, chunks, buffers, images, document);
+  const Container container = splitContainer(source, *bytes);
+  Json root = parseJson(source, container.json);
+  failIfVersion1(source, root);
+  dropUnusedCameras(root);
+  checkStructure(root, source.file);
+  checkVersion(source, root["asset"]);
+  Warnings warnings;
+  checkExtensions(source, root, warnings);
+  if (!root.value("animations", Json::array()).empty()) warnings.add("animations are ignored, the rest pose is drawn");
+  dropUnread(root);
 
-  const std::string text = root.dump();
-  tinygltf::TinyGLTF loader;
-  std::string errors, warnings;
-  if (!loader.LoadASCIIFromString(&document.model, &errors, &warnings, text.data(), static_cast<unsigned>(text.size()),
-                                  "", tinygltf::NO_REQUIRE)) {
-    document.fail("", "is not valid glTF: " + errors);
-  }
-  document.model.buffers = std::move(buffers);
-  document.model.images = std::move(images);
+  std::optional<std::vector<uint8_t>> binary;
+  if (container.binary) binary.emplace(container.binary->begin(), container.binary->end());
+  Buffers buffers(source, root, std::move(binary));
+  Document document(source, modelFrom(source, std::move(root)), std::move(buffers));
+  document.warnings = std::move(warnings);
   return document;
+}
+
+float toFloat(const Source& source, double value, const std::string& field) {
+  if (!(std::fabs(value) <= double{std::numeric_limits<float>::max()})) source.fail(field, "is too large");
+  return static_cast<float>(value);
 }
 
 }  // namespace lensgraph::engine::gltf

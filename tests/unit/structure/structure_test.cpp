@@ -53,7 +53,9 @@ const Directions kDirections = {
     {"engine/graph", {"engine", "engine/vulkan", kGraph}},
     {"engine/image", {"engine", kGraph}},
     {"engine/scene", {"engine"}},
-    {"engine/gltf", {"engine", "engine/scene"}},
+    {"engine/gltf/read", {"engine"}},
+    {"engine/gltf/geometry", {"engine", "engine/scene", "engine/gltf/read"}},
+    {"engine/gltf", {"engine", "engine/scene", "engine/gltf/*"}},
     {"engine/draw", {"engine", "engine/graph", "engine/image", "engine/scene", "engine/vulkan", kGraph, kShared}},
 
     {"samples/host", {"engine", "engine/*", "passes", "passes/*", kGraph, kShared}},
