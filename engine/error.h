@@ -1,6 +1,7 @@
 // The one exception of the engine's edges: files, parameters, devices. One line: file, field, reason, remedy.
 #pragma once
 
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -21,7 +22,16 @@ struct ErrorParts {
   std::string remedy;  ///< What to do about it, where something can be done.
 };
 
-/// what() is a single line "file: field: reason; remedy". Line breaks inside the parts become spaces.
+/// No line that the engine makes for a user is longer, in bytes of UTF-8.
+inline constexpr std::size_t kLongestLine = 500;
+
+/// Text from a file or a library as part of a line: control characters (C0, C1, line and paragraph separators, marks
+/// that turn the direction of writing) become blanks, those at the end are cut off, and of a text longer than `limit`
+/// bytes the middle becomes "…". Characters of UTF-8 stay whole; other bytes stay as they are.
+std::string asLine(std::string_view text, std::size_t limit = kLongestLine);
+
+/// what() is a single line "file: field: reason; remedy", made by asLine(). When it would be longer than kLongestLine, the
+/// longest parts are shortened first, so that a long name hides none of the others. parts() keeps all.
 class Error : public std::runtime_error {
  public:
   explicit Error(ErrorParts parts, ErrorKind kind = ErrorKind::badInput);

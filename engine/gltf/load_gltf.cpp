@@ -3,13 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
-#include <glm/gtc/quaternion.hpp>
 #include <map>
 #include <new>
+#include <tuple>
 
 #include "engine/error.h"
-#include "engine/gltf/internal.h"
+#include "engine/gltf/geometry/primitive.h"
+#include "engine/gltf/instancing.h"
+#include "engine/gltf/material.h"
+#include "engine/gltf/node_tree.h"
+#include "engine/gltf/read/document.h"
 
 namespace lensgraph::engine {
 namespace {
@@ -28,34 +31,6 @@ bool isFinite(const glm::dmat4& m) {
   return true;
 }
 
-// T · R · S; none when the quaternion has no direction.
-std::optional<glm::dmat4> fromTrs(const glm::dvec3& translation, const glm::dvec4& rotation, const glm::dvec3& scale) {
-  const double length = glm::length(rotation);
-  if (!(length > 0.0) || !std::isfinite(length)) return std::nullopt;
-  const glm::dvec4 q = rotation / length;
-  glm::dmat4 matrix = glm::mat4_cast(glm::dquat(q.w, q.x, q.y, q.z));
-  for (int axis = 0; axis < 3; ++axis) matrix[axis] *= scale[axis];
-  matrix[3] = glm::dvec4(translation, 1.0);
-  return matrix;
-}
-
-glm::dmat4 parentFromNode(const Document& document, size_t index) {
-  const tinygltf::Node& node = document.model.nodes[index];
-  if (!node.matrix.empty()) {
-    glm::dmat4 matrix;
-    for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = node.matrix[static_cast<size_t>(i)];
-    return matrix;
-  }
-  const auto vec3Of = [](const std::vector<double>& v, double otherwise) {
-    return v.empty() ? glm::dvec3(otherwise) : glm::dvec3(v[0], v[1], v[2]);
-  };
-  const std::vector<double>& r = node.rotation;
-  const glm::dvec4 rotation = r.empty() ? glm::dvec4(0.0, 0.0, 0.0, 1.0) : glm::dvec4(r[0], r[1], r[2], r[3]);
-  const auto matrix = fromTrs(vec3Of(node.translation, 0.0), rotation, vec3Of(node.scale, 1.0));
-  if (!matrix) document.fail(at("nodes", index, ".rotation"), "is no rotation: the quaternion has length 0");
-  return *matrix;
-}
-
 // Scale 0 on all axes is the usual way to hide a node (glTF 2.0 §3.5.2).
 bool isHidden(const glm::dmat4& m) {
   return glm::dvec3(m[0]) == glm::dvec3(0.0) && glm::dvec3(m[1]) == glm::dvec3(0.0) &&
@@ -65,107 +40,75 @@ bool isHidden(const glm::dmat4& m) {
 class Assembler {
  public:
   Assembler(Document& document, const glm::dmat4& worldFromFile, const GltfOptions& options)
-      : document_(document), worldFromFile_(worldFromFile), materials_(document, scene_, options.loadShadingTextures) {}
+      : document_(document), worldFromFile_(worldFromFile), materials_(document, scene_, options.isLit) {}
 
   Scene assemble() {
-    placeNodes();
-    for (size_t index : drawn_) {
+    tree_ = gltf::placeNodes(document_);
+    for (const auto& [index, isVisible] : tree_.placed) {
       const tinygltf::Node& node = document_.model.nodes[index];
-      const glm::dmat4 world = worldFromFile_ * fileFromNode_[index];
+      const glm::dmat4 world = worldFromFile_ * tree_.fileFromNode[index];
       if (node.camera >= 0) addCamera(node, world);
-      const bool isDrawn = node.mesh >= 0 || node.extensions.contains("KHR_lights_punctual");
-      if (isDrawn && !isFinite(world)) document_.fail(at("nodes", index), "its transform is too large");
+      const bool shines = node.extensions.contains("KHR_lights_punctual");
+      if (!isVisible || (node.mesh < 0 && !shines)) continue;
+      if (!isFinite(world)) document_.fail(at("nodes", index), "its transform is too large");
       if (node.mesh >= 0 && !isHidden(world)) addMesh(index, node, world);
-      if (node.extensions.contains("KHR_lights_punctual")) addLight(node, world);
+      if (shines) addLight(node, world);
     }
     std::ranges::stable_sort(scene_.cameras, {}, &SceneCamera::fileIndex);
     return std::move(scene_);
   }
 
  private:
-  // The roots of the scene to draw, checked to be nodes of a tree by the walk.
-  std::vector<int> rootNodes() const {
-    const tinygltf::Model& model = document_.model;
-    if (!model.scenes.empty()) {
-      return model.scenes[static_cast<size_t>(std::max(model.defaultScene, 0))].nodes;
-    }
-    std::vector<bool> isChild(model.nodes.size());
-    for (const tinygltf::Node& node : model.nodes) {
-      for (int child : node.children) isChild[static_cast<size_t>(child)] = true;
-    }
-    std::vector<int> roots;
-    for (size_t i = 0; i < model.nodes.size(); ++i) {
-      if (!isChild[i]) roots.push_back(static_cast<int>(i));
-    }
-    return roots;
-  }
-
-  // Fills fileFromNode_ and drawn_, parents before children. A stack of its own: files may nest nodes deeper
-  // than ours.
-  void placeNodes() {
-    const tinygltf::Model& model = document_.model;
-    fileFromNode_.assign(model.nodes.size(), glm::dmat4(1.0));
-    std::vector<bool> isVisited(model.nodes.size());
-    struct Entry {
-      int node;
-      glm::dmat4 fileFromParent;
-    };
-    std::vector<Entry> stack;
-    const auto push = [&](const std::vector<int>& nodes, const glm::dmat4& fileFromParent) {
-      for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) stack.push_back({*node, fileFromParent});
-    };
-    push(rootNodes(), glm::dmat4(1.0));
-    while (!stack.empty()) {
-      const Entry entry = stack.back();
-      stack.pop_back();
-      const size_t index = static_cast<size_t>(entry.node);
-      if (isVisited[index]) document_.fail(at("nodes", index), "is reached twice: nodes must form a tree, not a cycle");
-      isVisited[index] = true;
-      fileFromNode_[index] = entry.fileFromParent * parentFromNode(document_, index);
-      drawn_.push_back(index);
-      push(model.nodes[index].children, fileFromNode_[index]);
-    }
-  }
-
   void addMesh(size_t nodeIndex, const tinygltf::Node& node, const glm::dmat4& world) {
-    const size_t mesh = static_cast<size_t>(node.mesh);
-    const std::vector<tinygltf::Primitive>& primitives = document_.model.meshes[mesh].primitives;
     if (node.skin >= 0) document_.warn("skins are drawn in their rest pose");
-    for (size_t i = 0; i < primitives.size(); ++i) {
-      uint32_t index = kNoIndex;
-      const auto key = std::pair(mesh, i);
-      if (const auto found = built_.find(key); found != built_.end() && node.skin < 0) {
-        index = found->second;
-      } else {
-        index = addPrimitive(mesh, i, node.skin);
-        if (node.skin < 0) built_.emplace(key, index);
-      }
+    const tinygltf::Mesh& mesh = document_.model.meshes[static_cast<size_t>(node.mesh)];
+    // A skinned mesh stands where its joints are; its node's transform does not count (glTF 2.0 §3.7.3.3).
+    const glm::dmat4& worldFromNode = node.skin >= 0 ? worldFromFile_ : world;
+    const std::vector<glm::dmat4> placements =
+        gltf::meshPlacements(document_, nodeIndex, mesh.primitives.size() * sizeof(Instance));
+    gltf::PrimitiveUse use{.mesh = static_cast<size_t>(node.mesh),
+                           .weights = node.weights.empty() ? mesh.weights : node.weights,
+                           .skin = node.skin};
+    for (use.primitive = 0; use.primitive < mesh.primitives.size(); ++use.primitive) {
+      const uint32_t index = primitiveIndex(use);
       if (index == kNoIndex) continue;
-      // A skinned mesh stands where its joints are; its node's transform does not count (glTF 2.0 §3.7.3.3).
-      const glm::dmat4& worldFromObject = node.skin >= 0 ? worldFromFile_ : world;
-      const std::string name = node.name.empty() ? at("nodes", nodeIndex) : node.name;
-      scene_.instances.push_back({.primitive = index, .worldFromObject = worldFromObject, .name = name});
+      // The first primitive of a node is paid for by the node's own text.
+      if (use.primitive > 0) document_.takeMemory(sizeof(Instance), 0, at("nodes", nodeIndex, ".mesh"));
+      for (const glm::dmat4& nodeFromObject : placements) {
+        const glm::dmat4 worldFromObject = worldFromNode * nodeFromObject;
+        if (!isFinite(worldFromObject)) document_.fail(at("nodes", nodeIndex), "its transform is too large");
+        if (isHidden(worldFromObject)) continue;
+        const std::string name = node.name.empty() ? at("nodes", nodeIndex) : node.name;
+        scene_.instances.push_back({.primitive = index, .worldFromObject = worldFromObject, .name = name});
+      }
     }
   }
 
-  uint32_t addPrimitive(size_t mesh, size_t primitive, int skin) {
-    std::optional<Primitive> built = gltf::buildPrimitive(document_, mesh, primitive);
+  uint32_t primitiveIndex(const gltf::PrimitiveUse& use) {
+    const auto key = std::tuple(use.mesh, use.primitive, use.weights, use.skin);
+    const auto found = built_.find(key);
+    return found != built_.end() ? found->second : built_[key] = addPrimitive(use);
+  }
+
+  uint32_t addPrimitive(gltf::PrimitiveUse use) {
+    if (!gltf::isOfTriangles(document_, use)) return kNoIndex;
+    const int material = document_.model.meshes[use.mesh].primitives[use.primitive].material;
+    const uint32_t materialIndex = materials_.materialIndex(material);
+    use.uvSets = materials_.uvSetsOf(material);
+    std::optional<Primitive> built = gltf::buildPrimitive(document_, use, tree_.fileFromNode);
     if (!built) return kNoIndex;
-    if (skin >= 0) gltf::applyRestPose(document_, mesh, primitive, skin, fileFromNode_, *built);
-    if (built->normals.empty()) computeFlatNormals(*built);
-    const tinygltf::Primitive& source = document_.model.meshes[mesh].primitives[primitive];
-    built->material = materials_.materialIndex(source.material);
-    warnOfMissingUvs(*built);
+    built->material = materialIndex;
+    warnOfMissingUvs(*built, use);
     scene_.primitives.push_back(std::move(*built));
     return static_cast<uint32_t>(scene_.primitives.size() - 1);
   }
 
-  void warnOfMissingUvs(const Primitive& primitive) {
+  void warnOfMissingUvs(const Primitive& primitive, const gltf::PrimitiveUse& use) {
     const Material& material = scene_.materials[primitive.material];
-    for (const TextureUse* use : {&material.baseColorTexture, &material.emissiveTexture}) {
-      if (use->isUsed() && primitive.uvs[use->uvSet].empty()) {
-        document_.warn("'" + primitive.name + "' has no TEXCOORD_" + std::to_string(use->uvSet) +
-                       " for its material's texture");
+    for (const TextureUse* texture : {&material.baseColorTexture, &material.emissiveTexture}) {
+      if (texture->isUsed() && primitive.uvs[texture->uvSet].empty()) {
+        document_.warn("has no TEXCOORD_" + std::to_string(use.uvSets[texture->uvSet]) + " for its material's texture",
+                       gltf::fieldOf(use));
       }
     }
   }
@@ -225,10 +168,9 @@ class Assembler {
   glm::dmat4 worldFromFile_;
   Scene scene_;
   gltf::MaterialBuilder materials_;
-  std::vector<glm::dmat4> fileFromNode_;  ///< By node; only those in drawn_ count.
-  std::vector<size_t> drawn_;             ///< Nodes of the scene, parents first.
-  std::map<std::pair<size_t, size_t>, uint32_t>
-      built_;  ///< Primitive by mesh and primitive; kNoIndex: nothing to draw.
+  gltf::NodeTree tree_;
+  /// Primitive of the scene by mesh, primitive, weights and skin; kNoIndex: nothing to draw.
+  std::map<std::tuple<size_t, size_t, std::vector<double>, int>, uint32_t> built_;
 };
 
 template <typename T>
@@ -271,7 +213,7 @@ glm::dmat4 worldFromFileTransform(const FileTransform& placement) {
   };
   if (!isFinite3(placement.translation)) failPlacement("translation", "is not finite");
   if (!isFinite3(placement.scale)) failPlacement("scale", "is not finite");
-  const auto matrix = fromTrs(placement.translation, placement.rotation, placement.scale);
+  const auto matrix = gltf::fromTrs(placement.translation, placement.rotation, placement.scale);
   if (!matrix) failPlacement("rotation", "is no rotation: give a quaternion x, y, z, w other than zero");
   return *matrix;
 }
@@ -281,7 +223,7 @@ std::vector<std::string> appendGltf(Scene& scene, const std::filesystem::path& p
   try {
     Document document = gltf::readDocument(path);
     merge(scene, Assembler(document, worldFromFile, options).assemble());
-    return std::move(document.warnings);
+    return document.warnings.lines(document.file);
   } catch (const Error&) {
     throw;
   } catch (const std::bad_alloc&) {

@@ -32,9 +32,9 @@ struct FileTransform {
 glm::dmat4 worldFromFileTransform(const FileTransform& placement);
 
 struct GltfOptions {
-  /// False leaves out normal, metallic-roughness and occlusion textures: nothing of them shows in unlit
-  /// pictures, and decoding them is most of the time and memory of large files.
-  bool loadShadingTextures = true;
+  /// False for pictures without light: normal, metallic-roughness and occlusion textures are left out, since nothing of
+  /// them shows and decoding them is most of the time and memory of large files; transmission is ignored.
+  bool isLit = true;
 };
 
 /// Adds the default scene of a file to a scene (the first one if none is default; all root nodes if it has no

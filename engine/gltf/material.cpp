@@ -1,10 +1,8 @@
-// Materials, textures, samplers and images of a glTF file.
-#include <algorithm>
-#include <climits>
-#include <cmath>
-#include <limits>
+// Builds materials, textures and samplers.
+#include "engine/gltf/material.h"
 
-#include "engine/gltf/internal.h"
+#include <algorithm>
+#include <array>
 
 namespace lensgraph::engine::gltf {
 namespace {
@@ -65,11 +63,13 @@ AlphaMode alphaModeOf(const Document& document, const std::string& mode, const s
   document.fail(field, "'" + mode + "' is none of OPAQUE, MASK, BLEND");
 }
 
-bool isPngOrJpeg(std::span<const uint8_t> bytes) {
-  const auto startsWith = [&](std::initializer_list<uint8_t> magic) {
-    return bytes.size() >= magic.size() && std::equal(magic.begin(), magic.end(), bytes.begin());
-  };
-  return startsWith({0x89, 'P', 'N', 'G'}) || startsWith({0xFF, 0xD8, 0xFF});
+// Of glass that lets all light through this much is still drawn, so that its reflections show: the 4 % that each of the
+// two sides of a pane reflects.
+constexpr float kLeastGlassAlpha = 0.08f;
+
+std::array<TextureUse*, 5> textureUsesOf(Material& material) {
+  return {&material.baseColorTexture, &material.emissiveTexture, &material.metallicRoughnessTexture,
+          &material.normalTexture, &material.occlusionTexture};
 }
 
 // Members of an extension are numbers and arrays of the right length: the document has been checked.
@@ -87,66 +87,19 @@ glm::vec2 vec2In(const Document& document, const tinygltf::Value& object, const 
 
 }  // namespace
 
-float toFloat(const Document& document, double value, const std::string& field) {
-  if (!(std::fabs(value) <= double{std::numeric_limits<float>::max()})) document.fail(field, "is too large");
-  return static_cast<float>(value);
-}
-
-SceneImage decodeImage(const Document& document, int index, ColorEncoding encoding) {
-  const tinygltf::Image& source = document.model.images[static_cast<size_t>(index)];
-  const std::string field = at("images", static_cast<size_t>(index));
-  std::vector<uint8_t> external;
-  std::span<const uint8_t> bytes;
-  if (source.bufferView >= 0) {
-    bytes = viewBytes(document, source.bufferView);
-  } else {
-    if (source.uri.empty()) document.fail(field, "has neither uri nor bufferView");
-    external = readUri(document, source.uri, field + ".uri");
-    bytes = external;
-  }
-  const bool isShortUri = !source.uri.empty() && !source.uri.starts_with("data:");
-  const std::string name = isShortUri ? "'" + source.uri + "' " : std::string();
-  if (bytes.empty()) document.fail(field, name + "is empty (0 bytes)");
-  // Only what glTF allows: the decoder's other formats have seen less care.
-  if (!isPngOrJpeg(bytes)) document.fail(field, name + "is neither PNG nor JPEG", "convert it to PNG");
-  if (bytes.size() > static_cast<size_t>(INT_MAX)) document.fail(field, name + "is too large");
-
-  tinygltf::Image decoded;
-  std::string errors, warnings;
-  if (!tinygltf::LoadImageData(&decoded, index, &errors, &warnings, 0, 0, bytes.data(), static_cast<int>(bytes.size()),
-                               nullptr)) {
-    document.fail(field, name + "is damaged and cannot be decoded");
-  }
-  SceneImage image;
-  image.name = isShortUri ? source.uri : source.name.empty() ? field : source.name;
-  image.width = static_cast<uint32_t>(decoded.width);
-  image.height = static_cast<uint32_t>(decoded.height);
-  image.encoding = encoding;
-  const size_t count = size_t{image.width} * image.height * 4;
-  if (decoded.bits == 16 && decoded.image.size() == 2 * count) {
-    image.rgba.resize(count);
-    for (size_t i = 0; i < count; ++i) {
-      const uint32_t value = decoded.image[2 * i] | uint32_t{decoded.image[2 * i + 1]} << 8;
-      image.rgba[i] = static_cast<uint8_t>((value * 255 + 32767) / 65535);
-    }
-  } else {
-    image.rgba = std::move(decoded.image);
-  }
-  if (image.rgba.size() != count || count == 0) document.fail(field, name + "has an unexpected pixel format");
-  return image;
-}
-
-MaterialBuilder::MaterialBuilder(Document& document, Scene& scene, bool loadShadingTextures)
-    : document_(document), scene_(scene), loadShadingTextures_(loadShadingTextures) {
+MaterialBuilder::MaterialBuilder(Document& document, Scene& scene, bool isLit)
+    : document_(document), scene_(scene), isLit_(isLit), images_(document) {
   materials_.assign(document.model.materials.size() + 1, kNoIndex);
+  uvSets_.assign(document.model.materials.size() + 1, UvSets{0, 1});
   for (auto& textures : textures_) textures.assign(document.model.textures.size(), kNoIndex);
-  for (auto& images : images_) images.assign(document.model.images.size(), kNoIndex);
+  for (auto& images : imageIndices_) images.assign(document.model.images.size(), kNoIndex);
 }
 
 uint32_t MaterialBuilder::materialIndex(int material) {
   uint32_t& index = materials_[static_cast<size_t>(material + 1)];
   if (index == kNoIndex) {
     Material built = material < 0 ? Material{} : build(static_cast<size_t>(material));
+    if (material >= 0) uvSets_[static_cast<size_t>(material + 1)] = placeUvSets(static_cast<size_t>(material), built);
     index = static_cast<uint32_t>(scene_.materials.size());
     scene_.materials.push_back(std::move(built));
   }
@@ -185,7 +138,9 @@ Material MaterialBuilder::build(size_t index) {
   const bool isEmissive = material.emissiveFactor != glm::vec3(0.0f) && material.emissiveStrength != 0.0f;
   if (isEmissive)
     material.emissiveTexture = use(source.emissiveTexture, ColorEncoding::srgb, field + ".emissiveTexture");
-  if (!loadShadingTextures_) return material;
+  const auto transmission = source.extensions.find("KHR_materials_transmission");
+  if (transmission != source.extensions.end()) addTransmission(transmission->second, field, material);
+  if (!isLit_) return material;
 
   material.metallicRoughnessTexture = use(pbr.metallicRoughnessTexture, ColorEncoding::linear,
                                           field + ".pbrMetallicRoughness.metallicRoughnessTexture");
@@ -194,6 +149,50 @@ Material MaterialBuilder::build(size_t index) {
   material.occlusionTexture = use(source.occlusionTexture, ColorEncoding::linear, field + ".occlusionTexture");
   material.occlusionStrength = number(source.occlusionTexture.strength, ".occlusionTexture.strength");
   return material;
+}
+
+void MaterialBuilder::addTransmission(const tinygltf::Value& transmission, const std::string& field,
+                                      Material& material) {
+  const float factor = toFloat(document_, numberIn(transmission, "transmissionFactor", 0.0),
+                               field + ".extensions.KHR_materials_transmission.transmissionFactor");
+  if (!(factor > 0.0f)) return;
+  if (!isLit_) {
+    document_.warn("KHR_materials_transmission is ignored in unlit pictures", field);
+    return;
+  }
+  document_.warn("KHR_materials_transmission is drawn as alpha, without refraction", field);
+  if (transmission.Has("transmissionTexture"))
+    document_.warn("the texture of KHR_materials_transmission is left out", field);
+  if (material.alphaMode == AlphaMode::opaque) material.baseColorFactor.a = 1.0f;
+  material.baseColorFactor.a *= std::max(1.0f - factor, kLeastGlassAlpha);
+  material.alphaMode = AlphaMode::blend;
+}
+
+UvSets MaterialBuilder::placeUvSets(size_t index, Material& material) {
+  std::vector<uint32_t> sets;
+  for (TextureUse* use : textureUsesOf(material)) {
+    if (use->isUsed() && std::find(sets.begin(), sets.end(), use->uvSet) == sets.end()) sets.push_back(use->uvSet);
+  }
+  UvSets placed{0, 1};
+  if (std::all_of(sets.begin(), sets.end(), [](uint32_t set) { return set <= 1; })) return placed;
+  if (sets.size() > placed.size()) {
+    document_.warn("a material uses more than two UV sets, the textures with the others are left out",
+                   at("materials", index));
+    sets.resize(placed.size());
+  }
+  std::copy(sets.begin(), sets.end(), placed.begin());
+  // With one set the second slot holds nothing that is used.
+  if (sets.size() == 1) placed[1] = placed[0] == 0 ? 1 : 0;
+  for (TextureUse* use : textureUsesOf(material)) {
+    if (!use->isUsed()) continue;
+    const auto slot = std::find(sets.begin(), sets.end(), use->uvSet);
+    if (slot == sets.end()) {
+      *use = TextureUse{};
+    } else {
+      use->uvSet = static_cast<uint32_t>(slot - sets.begin());
+    }
+  }
+  return placed;
 }
 
 template <typename TextureInfo>
@@ -209,10 +208,6 @@ TextureUse MaterialBuilder::use(const TextureInfo& info, ColorEncoding encoding,
     result.rotation = toFloat(document_, numberIn(transform, "rotation", 0.0), transformField + ".rotation");
     uvSet = numberIn(transform, "texCoord", uvSet);
   }
-  if (!(uvSet == 0.0 || uvSet == 1.0)) {
-    document_.warn(field + ": UV sets above 1 are not read, the texture is left out");
-    return TextureUse{};
-  }
   result.uvSet = static_cast<uint32_t>(uvSet);
   result.texture = textureIndex(info.index, encoding);
   return result;
@@ -222,10 +217,7 @@ uint32_t MaterialBuilder::textureIndex(int texture, ColorEncoding encoding) {
   uint32_t& index = textures_[static_cast<size_t>(encoding)][static_cast<size_t>(texture)];
   if (index != kNoIndex) return index;
   const tinygltf::Texture& source = document_.model.textures[static_cast<size_t>(texture)];
-  if (source.source < 0) {
-    document_.fail(at("textures", static_cast<size_t>(texture), ".source"), "is missing",
-                   "export with PNG or JPEG textures");
-  }
+  if (source.source < 0) failWithoutSource(static_cast<size_t>(texture));
   Texture result;
   if (source.sampler >= 0) {
     const tinygltf::Sampler& sampler = document_.model.samplers[static_cast<size_t>(source.sampler)];
@@ -240,17 +232,20 @@ uint32_t MaterialBuilder::textureIndex(int texture, ColorEncoding encoding) {
   return index;
 }
 
+void MaterialBuilder::failWithoutSource(size_t texture) const {
+  const std::string remedy = "export with PNG or JPEG textures";
+  const tinygltf::ExtensionMap& extensions = document_.model.textures[texture].extensions;
+  if (extensions.empty()) document_.fail(at("textures", texture, ".source"), "is missing", remedy);
+  document_.fail(at("textures", texture), "has its image in " + extensions.begin()->first + " alone, which is not read",
+                 remedy);
+}
+
 uint32_t MaterialBuilder::imageIndex(int image, ColorEncoding encoding) {
-  uint32_t& index = images_[static_cast<size_t>(encoding)][static_cast<size_t>(image)];
+  uint32_t& index = imageIndices_[static_cast<size_t>(encoding)][static_cast<size_t>(image)];
   if (index != kNoIndex) return index;
-  const uint32_t other = images_[1 - static_cast<size_t>(encoding)][static_cast<size_t>(image)];
-  SceneImage decoded;
-  if (other != kNoIndex) {
-    decoded = scene_.images[other];
-    decoded.encoding = encoding;
-  } else {
-    decoded = decodeImage(document_, image, encoding);
-  }
+  const uint32_t other = imageIndices_[1 - static_cast<size_t>(encoding)][static_cast<size_t>(image)];
+  SceneImage decoded = other != kNoIndex ? images_.copy(scene_.images[other], image) : images_.decode(image);
+  decoded.encoding = encoding;
   index = static_cast<uint32_t>(scene_.images.size());
   scene_.images.push_back(std::move(decoded));
   return index;

@@ -22,7 +22,7 @@ void rethrowNamingShot(const engine::Error& error, const Shot& shot, const std::
 
 engine::Scene loadShotScene(const Shot& shot, std::vector<std::string>& warnings) {
   engine::Scene scene;
-  const engine::GltfOptions options{.loadShadingTextures = shot.shading == Shading::lit};
+  const engine::GltfOptions options{.isLit = shot.shading == Shading::lit};
   for (std::size_t i = 0; i < shot.scene.size(); ++i) {
     const auto& part = shot.scene[i];
     const glm::dmat4 worldFromFile = namingShot(shot, "scene[" + std::to_string(i) + "]",

@@ -54,7 +54,9 @@ const Directions kDirections = {
     {"engine/files", {"engine"}},
     {"engine/image", {"engine", "engine/files", kGraph}},
     {"engine/scene", {"engine"}},
-    {"engine/gltf", {"engine", "engine/scene"}},
+    {"engine/gltf/read", {"engine"}},
+    {"engine/gltf/geometry", {"engine", "engine/scene", "engine/gltf/read"}},
+    {"engine/gltf", {"engine", "engine/scene", "engine/gltf/*"}},
     {"engine/draw", {"engine", "engine/graph", "engine/image", "engine/scene", "engine/vulkan", kGraph, kShared}},
 
     {"samples/host", {"engine", "engine/*", "passes", "passes/*", kGraph, kShared}},

@@ -90,7 +90,7 @@ TEST(GltfGeometry, PointsAndLinesAreLeftOutWithAWarning) {
   builder.json["meshes"][0]["primitives"][0]["mode"] = 1;
   std::vector<std::string> warnings;
   EXPECT_TRUE(load(builder, &warnings).instances.empty());
-  EXPECT_THAT(warnings, ElementsAre(HasSubstr("meshes[0].primitives[0]: points and lines are not drawn")));
+  EXPECT_THAT(warnings, ElementsAre(HasSubstr("meshes[0].primitives[0]: line primitives are not drawn")));
 }
 
 TEST(GltfGeometry, InterleavedWithStride) {
@@ -197,17 +197,6 @@ TEST(GltfGeometry, IncompleteTriangleIsLeftOutWithAWarning) {
   std::vector<std::string> warnings;
   EXPECT_EQ(loadOne(builder, &warnings).triangleCount(), 1u);
   EXPECT_THAT(warnings, ElementsAre(HasSubstr("do not make whole triangles")));
-}
-
-TEST(GltfGeometry, MorphTargetsKeepTheRestPoseAndWarnOnce) {
-  GltfBuilder builder = triangleFile();
-  auto& primitive = builder.json["meshes"][0]["primitives"][0];
-  primitive["targets"] = {{{"POSITION", builder.addAccessor(std::vector<float>(9, 7.0f), "VEC3")}}};
-  builder.addMesh(primitive);
-  std::vector<std::string> warnings;
-  const Scene scene = load(builder, &warnings);
-  EXPECT_EQ(corners(scene.primitives[0]), kCorners);
-  EXPECT_THAT(warnings, ElementsAre(HasSubstr("morph targets are ignored")));
 }
 
 TEST(GltfGeometry, ExternalBufferWithAwkwardNameAndSpareBytes) {

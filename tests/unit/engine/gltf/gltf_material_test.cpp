@@ -132,7 +132,7 @@ TEST(GltfMaterial, TexturesSayHowTheirImagesAreEncoded) {
   EXPECT_EQ(scene.textures.size(), 2u);
   for (const engine::SceneImage& image : scene.images) EXPECT_THAT(image.rgba, ElementsAre(200, 100, 50, 128));
 
-  const Scene unlitOnly = load(builder, nullptr, {.loadShadingTextures = false});
+  const Scene unlitOnly = load(builder, nullptr, {.isLit = false});
   EXPECT_EQ(unlitOnly.images.size(), 1u);
   EXPECT_TRUE(unlitOnly.materials[0].emissiveTexture.isUsed());
   EXPECT_FALSE(unlitOnly.materials[0].normalTexture.isUsed());
@@ -184,13 +184,54 @@ TEST(GltfMaterial, TextureTransformOverridesTheUvSet) {
   EXPECT_NEAR(v.y, 0.25, 1e-6);
 }
 
-TEST(GltfMaterial, HighUvSetsAreLeftOutWithAWarning) {
+/// Sets 2, 3 and 4 beside those of fileWith(), every vertex of set n at (n, n).
+GltfBuilder fileWithFiveUvSets(const Json& material) {
+  GltfBuilder builder = fileWith(material);
+  for (int set = 2; set < 5; ++set) {
+    builder.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_" + std::to_string(set)] =
+        builder.addAccessor(std::vector<float>(6, static_cast<float>(set)), "VEC2");
+  }
+  return builder;
+}
+
+TEST(GltfMaterial, HighUvSetsTakeTheSlotsThatThePrimitiveHas) {
+  GltfBuilder builder = fileWithFiveUvSets(Json::object());
+  const int texture = addTexture(builder);
+  builder.json["materials"][0] = {
+      {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", texture}, {"texCoord", 3}}}}},
+      {"normalTexture", {{"index", texture}, {"texCoord", 2}}},
+      {"occlusionTexture", {{"index", texture}, {"texCoord", 3}}}};
+  std::vector<std::string> warnings;
+  const Scene scene = load(builder, &warnings);
+  EXPECT_THAT(warnings, IsEmpty());
+  const Material& material = scene.materials[0];
+  const auto uvOf = [&](const engine::TextureUse& use) { return scene.primitives[0].uvs[use.uvSet].at(0); };
+  EXPECT_EQ(uvOf(material.baseColorTexture), glm::vec2(3));
+  EXPECT_EQ(uvOf(material.normalTexture), glm::vec2(2));
+  EXPECT_EQ(uvOf(material.occlusionTexture), glm::vec2(3));
+}
+
+TEST(GltfMaterial, AThirdUvSetIsLeftOutWithAWarning) {
+  GltfBuilder builder = fileWithFiveUvSets(Json::object());
+  const int texture = addTexture(builder);
+  builder.json["materials"][0] = {
+      {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", texture}, {"texCoord", 4}}}}},
+      {"normalTexture", {{"index", texture}, {"texCoord", 2}}},
+      {"occlusionTexture", {{"index", texture}}}};
+  std::vector<std::string> warnings;
+  const Scene scene = load(builder, &warnings);
+  EXPECT_TRUE(scene.materials[0].normalTexture.isUsed());
+  EXPECT_FALSE(scene.materials[0].occlusionTexture.isUsed());
+  EXPECT_THAT(warnings, ElementsAre(HasSubstr("materials[0]: a material uses more than two UV sets")));
+}
+
+TEST(GltfMaterial, AnUnusedSecondSetIsNoPlaceForAMissingOne) {
   GltfBuilder builder = fileWith(Json::object());
   builder.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", addTexture(builder)},
                                                                               {"texCoord", 2}};
   std::vector<std::string> warnings;
-  EXPECT_FALSE(load(builder, &warnings).materials[0].baseColorTexture.isUsed());
-  EXPECT_THAT(warnings, ElementsAre(HasSubstr("baseColorTexture: UV sets above 1")));
+  load(builder, &warnings);
+  EXPECT_THAT(warnings, ElementsAre(HasSubstr("has no TEXCOORD_2")));
 }
 
 TEST(GltfMaterial, MissingUvsAreAWarning) {
@@ -263,7 +304,8 @@ TEST(GltfImage, BadImagesAreNamed) {
   EXPECT_THAT(fileNamed("empty.png"), HasSubstr("images[0]: 'empty.png' is empty (0 bytes)"));
   EXPECT_THAT(fileNamed("text.png"), HasSubstr("images[0]: 'text.png' is neither PNG nor JPEG"));
   EXPECT_THAT(fileNamed("http://example.org/a.png"), HasSubstr("is not a local file"));
-  EXPECT_THAT(fileNamed("data:image/png,raw"), HasSubstr("data URI is not base64"));
+  EXPECT_THAT(fileNamed("data:image/png,raw"), HasSubstr("images[0]: is neither PNG nor JPEG"));
+  EXPECT_THAT(fileNamed("data:image/png;base64"), HasSubstr("data URI has no comma"));
   EXPECT_THAT(fileNamed("data:image/png;base64,????"), HasSubstr("not base64"));
   EXPECT_THAT(errorWithImage(Json::object(), folder), HasSubstr("images[0]: has neither uri nor bufferView"));
 }

@@ -67,7 +67,7 @@ TEST_F(Shots, EveryModelLoadsWithAllItsTriangles) {
   for (const fs::path& path : modelFiles()) {
     SCOPED_TRACE(path.filename());
     Scene scene;
-    engine::appendGltf(scene, path, glm::dmat4(1.0), {.loadShadingTextures = false});
+    engine::appendGltf(scene, path, glm::dmat4(1.0), {.isLit = false});
     EXPECT_EQ(engine::triangleCount(scene), expectedTriangles(jsonOf(path)));
     EXPECT_THAT(engine::findProblems(scene), testing::IsEmpty());
     EXPECT_FALSE(engine::worldBounds(scene).isEmpty());
@@ -109,7 +109,7 @@ TEST_F(Shots, TheHelmetHasItsTexturesAndSize) {
 TEST_F(Shots, TheToyCarWarnsOfWhatIsIgnored) {
   Scene scene;
   const auto warnings =
-      engine::appendGltf(scene, kShots / "models/ToyCar/ToyCar.gltf", glm::dmat4(1.0), {.loadShadingTextures = false});
+      engine::appendGltf(scene, kShots / "models/ToyCar/ToyCar.gltf", glm::dmat4(1.0), {.isLit = false});
   EXPECT_THAT(warnings, testing::Contains(testing::HasSubstr("KHR_materials_clearcoat is ignored")));
   EXPECT_THAT(warnings, testing::Contains(testing::HasSubstr("KHR_materials_transmission is ignored")));
 }

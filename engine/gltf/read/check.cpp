@@ -2,11 +2,13 @@
 //
 // tinygltf silently skips optional members of a wrong type and truncates integers; this makes both an error
 // with the field's name, and lets everything after it trust types and indices.
-#include "engine/gltf/check.h"
+#include "engine/gltf/read/check.h"
 
 #include <climits>
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <span>
 #include <string_view>
 
 #include "engine/error.h"
@@ -28,7 +30,8 @@ enum class Kind {
   smallInteger,
   index,
   indices,
-  indexMap
+  indexMap,
+  sizeMap
 };
 enum class Need { optional, required };
 
@@ -47,6 +50,7 @@ constexpr Need kRequired = Need::required;
 constexpr Rule kRules[] = {
     {"asset", Kind::object, {}, 0, kRequired},
     {"asset.version", Kind::string, {}, 0, kRequired},
+    {"asset.minVersion", Kind::string},
     {"extensionsUsed", Kind::strings},
     {"extensionsRequired", Kind::strings},
     {"extensions", Kind::object},
@@ -72,6 +76,7 @@ constexpr Rule kRules[] = {
     {"bufferViews[].byteOffset", Kind::size},
     {"bufferViews[].byteLength", Kind::size, {}, 0, kRequired},
     {"bufferViews[].byteStride", Kind::size},
+    {"bufferViews[].extensions", Kind::object},
     {"accessors", Kind::array},
     {"accessors[]", Kind::object},
     {"accessors[].bufferView", Kind::index, "bufferViews"},
@@ -105,6 +110,7 @@ constexpr Rule kRules[] = {
     {"textures[]", Kind::object},
     {"textures[].sampler", Kind::index, "samplers"},
     {"textures[].source", Kind::index, "images"},
+    {"textures[].extensions", Kind::object},
 
     {"materials", Kind::array},
     {"materials[]", Kind::object},
@@ -123,6 +129,8 @@ constexpr Rule kRules[] = {
     {"materials[].extensions.KHR_materials_unlit", Kind::object},
     {"materials[].extensions.KHR_materials_emissive_strength", Kind::object},
     {"materials[].extensions.KHR_materials_emissive_strength.emissiveStrength", Kind::number},
+    {"materials[].extensions.KHR_materials_transmission", Kind::object},
+    {"materials[].extensions.KHR_materials_transmission.transmissionFactor", Kind::number},
 
     {"meshes", Kind::array},
     {"meshes[]", Kind::object},
@@ -135,6 +143,12 @@ constexpr Rule kRules[] = {
     {"meshes[].primitives[].material", Kind::index, "materials"},
     {"meshes[].primitives[].mode", Kind::smallInteger},
     {"meshes[].primitives[].targets", Kind::array},
+    {"meshes[].primitives[].targets[]", Kind::indexMap, "accessors"},
+    {"meshes[].primitives[].extensions", Kind::object},
+    {"meshes[].primitives[].extensions.KHR_draco_mesh_compression", Kind::object},
+    {"meshes[].primitives[].extensions.KHR_draco_mesh_compression.bufferView", Kind::index, "bufferViews", 0,
+     kRequired},
+    {"meshes[].primitives[].extensions.KHR_draco_mesh_compression.attributes", Kind::sizeMap, {}, 0, kRequired},
 
     {"cameras", Kind::array},
     {"cameras[]", Kind::object},
@@ -163,6 +177,10 @@ constexpr Rule kRules[] = {
     {"nodes[].extensions.KHR_lights_punctual", Kind::object},
     {"nodes[].extensions.KHR_lights_punctual.light", Kind::index, "extensions.KHR_lights_punctual.lights", 0,
      kRequired},
+    {"nodes[].extensions.KHR_node_visibility", Kind::object},
+    {"nodes[].extensions.KHR_node_visibility.visible", Kind::boolean},
+    {"nodes[].extensions.EXT_mesh_gpu_instancing", Kind::object},
+    {"nodes[].extensions.EXT_mesh_gpu_instancing.attributes", Kind::indexMap, "accessors", 0, kRequired},
     {"skins", Kind::array},
     {"skins[]", Kind::object},
     {"skins[].joints", Kind::indices, "nodes", 0, kRequired},
@@ -194,11 +212,38 @@ constexpr Rule kTextureInfoRules[] = {
     {".extensions.KHR_texture_transform.texCoord", Kind::smallInteger},
 };
 
+// Two extensions that hold the same at the same place.
+constexpr std::string_view kMeshoptExtensions[] = {
+    "bufferViews[].extensions.EXT_meshopt_compression",
+    "bufferViews[].extensions.KHR_meshopt_compression",
+};
+constexpr Rule kMeshoptRules[] = {
+    {"", Kind::object},
+    {".buffer", Kind::index, "buffers", 0, kRequired},
+    {".byteOffset", Kind::size},
+    {".byteLength", Kind::size, {}, 0, kRequired},
+    {".byteStride", Kind::size, {}, 0, kRequired},
+    {".count", Kind::size, {}, 0, kRequired},
+    {".mode", Kind::string, {}, 0, kRequired},
+    {".filter", Kind::string},
+};
+
 class Checker {
  public:
   Checker(Json& root, const std::string& file) : root_(root), file_(file) {}
 
   void check(const Rule& rule) { walk(root_, rule.path, "", rule); }
+
+  /// Each rule at each place; the rules' paths begin there.
+  void check(std::span<const Rule> rules, std::span<const std::string_view> places) {
+    for (std::string_view place : places) {
+      for (Rule rule : rules) {
+        const std::string path = std::string(place) + std::string(rule.path);
+        rule.path = path;
+        check(rule);
+      }
+    }
+  }
 
  private:
   [[noreturn]] void fail(const std::string& field, const std::string& reason) const {
@@ -250,8 +295,12 @@ class Checker {
       case Kind::indices:
         return checkArray(value, field, rule);
       case Kind::indexMap:
+      case Kind::sizeMap:
         require(value.is_object(), field, "is not an object");
-        for (auto& [name, index] : value.items()) checkIndex(index, field + "." + name, rule.target);
+        for (auto& [name, number] : value.items()) {
+          if (rule.kind == Kind::indexMap) checkIndex(number, field + "." + name, rule.target);
+          if (rule.kind == Kind::sizeMap) checkSize(number, field + "." + name);
+        }
         return;
     }
   }
@@ -322,12 +371,24 @@ void checkStructure(Json& root, const std::string& file) {
   }
   Checker checker(root, file);
   for (const Rule& rule : kRules) checker.check(rule);
-  for (std::string_view place : kTextureInfos) {
-    for (Rule rule : kTextureInfoRules) {
-      const std::string path = std::string(place) + std::string(rule.path);
-      rule.path = path;
-      checker.check(rule);
+  checker.check(kTextureInfoRules, kTextureInfos);
+  checker.check(kMeshoptRules, kMeshoptExtensions);
+}
+
+void dropUnusedCameras(Json& root) {
+  if (!root.is_object()) return;
+  const auto cameras = root.find("cameras");
+  const auto nodes = root.find("nodes");
+  if (cameras == root.end() || !cameras->is_array()) return;
+  std::set<Json> used;
+  if (nodes != root.end() && nodes->is_array()) {
+    for (const Json& node : *nodes) {
+      if (node.is_object() && node.contains("camera")) used.insert(node["camera"]);
     }
+  }
+  for (size_t i = 0; i < cameras->size(); ++i) {
+    if (!used.contains(Json(i)))
+      (*cameras)[i] = {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}};
   }
 }
 

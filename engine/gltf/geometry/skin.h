@@ -1,0 +1,23 @@
+// The rest pose of a skin, baked into the vertices: joints where the file's nodes put them, no animation. Private to
+// engine/gltf.
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <vector>
+
+#include "engine/gltf/geometry/accessor.h"
+#include "engine/scene/scene.h"
+
+namespace lensgraph::engine::gltf {
+
+/// JOINTS_0 and WEIGHTS_0 of a primitive, four for each vertex.
+struct Influences {
+  Elements joints, weights;
+};
+
+/// Moves the vertices of `target`, which are those in `picked` of the file's, to where the joints' rest pose puts them, in
+/// the file's space. Throws Error naming `field`.
+void applyRestPose(Document& document, size_t skin, const Influences& influences, Picked picked,
+                   const std::vector<glm::dmat4>& fileFromNode, const std::string& field, Primitive& target);
+
+}  // namespace lensgraph::engine::gltf
