@@ -255,7 +255,8 @@ ChosenChannels chooseColor(const fs::path& path, const std::vector<PicturePart>&
   const auto grey = std::ranges::find_if(
       layers, [](const Layer& layer) { return layer.fold.empty() && layer.find({"y"}) != nullptr && layer.isGrey(); });
   if (grey != layers.end()) return colorOf(parts, *grey);
-  const bool isXyz = std::ranges::any_of(layers, [](const Layer& layer) { return layer.find({"y"}) && layer.find({"x"}); });
+  const bool isXyz =
+      std::ranges::any_of(layers, [](const Layer& layer) { return layer.find({"y"}) && layer.find({"x"}); });
   const bool isYc = std::ranges::any_of(layers, [](const Layer& layer) { return layer.find({"ry", "by"}) != nullptr; });
   failImage(path, "has no colour channels R, G, B; it has " + listed(namesOf(all)),
             isYc    ? "luminance and chroma are not read: store it as R, G, B"
@@ -274,7 +275,8 @@ ChosenChannels chooseDepth(const fs::path& path, const std::vector<PicturePart>&
   if (!choice.name.empty()) {
     const auto found = channelsNamed(parts, all, choice.name);
     if (found.size() == 1) return chosen(parts, found);
-    if (found.size() > 1) failImage(path, "has several channels '" + choice.name + "': " + named(found), remedyOf(choice));
+    if (found.size() > 1)
+      failImage(path, "has several channels '" + choice.name + "': " + named(found), remedyOf(choice));
     failImage(path, "has no channel '" + choice.name + "'; it has " + listed(namesOf(all)));
   }
   const auto found = candidatesForDepth(all);

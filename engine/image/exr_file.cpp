@@ -62,8 +62,9 @@ class ExrFile : public PictureFile {
   void requireFullResolution(const ExrPart& header) const {
     for (const ExrChannel& channel : header.channels) {
       if (!channel.isSubsampled) continue;
-      failImage(path_, "has channels of less than full resolution ('" + channel.name +
-                           "'; luminance and chroma?), which are not read",
+      failImage(path_,
+                "has channels of less than full resolution ('" + channel.name +
+                    "'; luminance and chroma?), which are not read",
                 "store it as R, G, B");
     }
   }

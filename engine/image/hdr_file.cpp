@@ -83,7 +83,8 @@ class HdrFile : public PictureFile {
     FloatImage image(static_cast<uint32_t>(spec.width), static_cast<uint32_t>(spec.height),
                      static_cast<uint32_t>(channels.size()));
     for (size_t i = 0; i < image.pixelCount(); ++i) {
-      for (size_t c = 0; c < channels.size(); ++c) image.samples[i * channels.size() + c] = samples[3 * i + channels[c]];
+      for (size_t c = 0; c < channels.size(); ++c)
+        image.samples[i * channels.size() + c] = samples[3 * i + channels[c]];
     }
     return image;
   }

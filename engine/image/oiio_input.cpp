@@ -52,8 +52,8 @@ const OIIO::ImageSpec& OiioInput::select(size_t part) {
 
 std::vector<float> OiioInput::read(int first, int end) {
   return guarded([&] {
-    const auto count = static_cast<size_t>(spec_.width) * static_cast<size_t>(spec_.height) *
-                       static_cast<size_t>(end - first);
+    const auto count =
+        static_cast<size_t>(spec_.width) * static_cast<size_t>(spec_.height) * static_cast<size_t>(end - first);
     const auto readAs = [&](OIIO::TypeDesc type, void* target) {
       if (!file_->read_image(part_, 0, first, end, type, target)) {
         failImage(path_, "is damaged or truncated: " + file_->geterror());

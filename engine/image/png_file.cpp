@@ -39,8 +39,7 @@ void takeBytes(png_structp png, png_bytep target, size_t count) {
   png_longjmp(png, 1);
 }
 
-void ignoreWarning(png_structp, png_const_charp) {
-}
+void ignoreWarning(png_structp, png_const_charp) {}
 
 /// libpng's two objects.
 struct Decoder {

@@ -120,15 +120,13 @@ PictureRead readDepth(const fs::path& path, const ChannelChoice& channel) {
 }
 
 PictureRead readImage(std::span<const std::byte> bytes, const fs::path& name, const ChannelChoice& layer) {
-  return guarded(name, [&] {
-    return readColor(name, *openPicture(name, imageFormatOf(name), copyOf(name, bytes)), layer);
-  });
+  return guarded(name,
+                 [&] { return readColor(name, *openPicture(name, imageFormatOf(name), copyOf(name, bytes)), layer); });
 }
 
 PictureRead readDepth(std::span<const std::byte> bytes, const fs::path& name, const ChannelChoice& channel) {
-  return guarded(name, [&] {
-    return readDepth(name, *openPicture(name, imageFormatOf(name), copyOf(name, bytes)), channel);
-  });
+  return guarded(
+      name, [&] { return readDepth(name, *openPicture(name, imageFormatOf(name), copyOf(name, bytes)), channel); });
 }
 
 FloatImage readImage(const fs::path& path) {
