@@ -1,10 +1,9 @@
-// The engine's side of a shot: its scene, its camera, its pictures.
+// The engine's side of a shot: its scene and its camera.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "engine/image/image.h"
 #include "engine/scene/camera.h"
 #include "engine/scene/scene.h"
 #include "samples/host/shot.h"
@@ -16,8 +15,5 @@ engine::Scene loadShotScene(const Shot& shot, std::vector<std::string>& warnings
 
 /// The shot's own camera, or the one it names in the scene. Near plane in metres. Throws engine::Error.
 engine::Camera shotCamera(const Shot& shot, const engine::Scene& scene);
-
-/// RGBA of a picture of one, three or four channels; alpha 1 where there is none.
-engine::FloatImage withOpaqueAlpha(const engine::FloatImage& picture);
 
 }  // namespace lensgraph::host
