@@ -81,10 +81,12 @@ void warnOfImplausibleDepth(const ApplyArguments& arguments, const host::DepthFi
   if (!found.nearest || arguments.depthMeaning.kind || arguments.depthMeaning.scale) return;
   const double nearest = static_cast<double>(*found.nearest), farthest = static_cast<double>(*found.farthest);
   const double focus = arguments.focusDistance;
-  constexpr double kFar = 2.0;  // times the range's ends
+  // Inverted depths end near 1; a focus behind all that the picture shows is rare. Centimetres are 100 times too large; a
+  // focus before everything is less rare.
+  constexpr double kBehind = 2.0, kBefore = 10.0;
   const bool isUnit = farthest <= 1.0 && farthest > 0.99;
-  const bool isBeyond = focus > kFar * farthest && (std::isfinite(focus) || isUnit);
-  if (!isBeyond && focus >= nearest / kFar) return;
+  const bool isBeyond = focus > kBehind * farthest && (std::isfinite(focus) || isUnit);
+  if (!isBeyond && focus >= nearest / kBefore) return;
   spdlog::warn("--depth: values from {:g} to {:g} are far from --focus {:g}: are they {}? See {}", nearest, farthest,
                focus, isBeyond ? "normalized, or disparities" : "metres",
                isBeyond ? "--depth-kind" : "--depth-scale and --depth-kind");
