@@ -2,10 +2,9 @@
 #include "engine/image/channel_choice.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
-#include <optional>
-#include <span>
+#include <map>
+#include <set>
 #include <string_view>
 
 #include "engine/image/image_format.h"
@@ -34,6 +33,19 @@ struct Channel {
   std::string leaf;   ///< Lower-case last word.
 };
 
+/// A layer that several parts have gets the part's name before its own in each.
+void nameParts(const std::vector<PicturePart>& parts, std::vector<Channel>& all) {
+  std::map<std::string, std::set<size_t>> partsOf;
+  for (const Channel& channel : all) partsOf[channel.fold].insert(channel.part);
+  for (Channel& channel : all) {
+    const std::string& part = parts[channel.part].name;
+    if (partsOf[channel.fold].size() < 2 || part.empty()) continue;
+    channel.name = part + "." + channel.name;
+    channel.layer = part + "." + channel.layer;
+    channel.fold = lower(channel.layer);
+  }
+}
+
 /// Every channel of the parts that can be read.
 std::vector<Channel> channelsOf(const std::vector<PicturePart>& parts) {
   std::vector<Channel> all;
@@ -48,6 +60,7 @@ std::vector<Channel> channelsOf(const std::vector<PicturePart>& parts) {
       all.push_back({part, index, shown, layer, lower(layer), lower(isPlain ? name : name.substr(dot + 1))});
     }
   }
+  nameParts(parts, all);
   return all;
 }
 
@@ -91,6 +104,22 @@ ChosenChannels chosen(const std::vector<PicturePart>& parts, const std::vector<c
     if (result.names.channels.empty() || result.names.channels.back() != name) result.names.channels.push_back(name);
   }
   return result;
+}
+
+/// Whether a layer's words say that it holds neither colour nor depth, however its channels are called.
+bool isOtherData(std::string_view layer) {
+  for (size_t start = 0; start <= layer.size();) {
+    const size_t end = std::min(layer.find('.', start), layer.size());
+    const auto word = layer.substr(start, end - start);
+    if (isOneOf(word, {"n", "p", "uv", "st", "mist", "vector", "vectors", "velocity", "motion", "mv", "pos", "xyz"})) {
+      return true;
+    }
+    for (const std::string_view part : {"normal", "position", "tangent", "motionvector", "pworld", "flow", "crypto"}) {
+      if (word.find(part) != std::string_view::npos) return true;
+    }
+    start = end + 1;
+  }
+  return false;
 }
 
 // ---- Colour
@@ -147,7 +176,7 @@ ChosenChannels colorOf(const std::vector<PicturePart>& parts, const Layer& layer
 std::vector<const Layer*> candidatesForColor(const std::vector<Layer>& layers) {
   std::vector<const Layer*> rgb, main;
   for (const Layer& layer : layers) {
-    if (!layer.hasRgb()) continue;
+    if (!layer.hasRgb() || isOtherData(layer.fold)) continue;
     rgb.push_back(&layer);
     if (isMainLayer(layer)) main.push_back(&layer);
   }
@@ -163,22 +192,6 @@ std::vector<std::string> namesOf(const std::vector<const Layer*>& layers) {
 }
 
 // ---- Depth
-
-/// Words of a layer that holds something else than depth in channels that are called like it.
-bool isOtherData(std::string_view layer) {
-  for (size_t start = 0; start <= layer.size();) {
-    const size_t end = std::min(layer.find('.', start), layer.size());
-    const auto word = layer.substr(start, end - start);
-    if (isOneOf(word, {"n", "p", "uv", "st", "mist", "vector", "vectors", "velocity", "motion", "mv", "pos", "xyz"})) {
-      return true;
-    }
-    for (const std::string_view part : {"normal", "position", "tangent", "motionvector", "pworld", "flow"}) {
-      if (word.find(part) != std::string_view::npos) return true;
-    }
-    start = end + 1;
-  }
-  return false;
-}
 
 bool isDepthWord(std::string_view word) {
   return isOneOf(word, {"depth", "zdepth", "z-depth", "z_depth", "depthz"});
@@ -261,7 +274,7 @@ ChosenChannels chooseColor(const fs::path& path, const std::vector<PicturePart>&
   failImage(path, "has no colour channels R, G, B; it has " + listed(namesOf(all)),
             isYc    ? "luminance and chroma are not read: store it as R, G, B"
             : isXyz ? "X, Y, Z are not read as colour: store it as R, G, B"
-                    : "");
+                    : remedyOf(choice));
 }
 
 ChosenChannels chooseDepth(const fs::path& path, const std::vector<PicturePart>& parts, const ChannelChoice& choice) {

@@ -39,8 +39,10 @@ class ExrFile : public PictureFile {
     if (spec.deep || spec.width != header.data.width || spec.height != header.data.height) {
       failImage(path_, "is damaged or truncated: its headers contradict each other");
     }
-    FloatImage image(static_cast<uint32_t>(header.display.width), static_cast<uint32_t>(header.display.height),
-                     static_cast<uint32_t>(channels.size()), outside);
+    FloatImage image;
+    image.width = static_cast<uint32_t>(header.display.width);
+    image.height = static_cast<uint32_t>(header.display.height);
+    image.channels = static_cast<uint32_t>(channels.size());
     // Where each wanted channel stands in OpenImageIO's order, and neighbours of one type together: every reading
     // decompresses the whole file, and channels that are not wanted cost memory.
     std::vector<std::pair<int, size_t>> wanted;
@@ -51,7 +53,12 @@ class ExrFile : public PictureFile {
       while (end != wanted.end() && end->first == (end - 1)->first + 1 && sameKind(spec, first->first, end->first)) {
         ++end;
       }
-      const std::vector<float> samples = input.read(first->first, (end - 1)->first + 1);
+      std::vector<float> samples = input.read(first->first, (end - 1)->first + 1);
+      if (isWhole(header, {first, end}, channels.size())) {  // spares a copy of all
+        image.samples = std::move(samples);
+        return image;
+      }
+      image.samples.resize(image.pixelCount() * image.channels, outside);
       place(image, header, samples, {first, end});
       first = end;
     }
@@ -78,6 +85,15 @@ class ExrFile : public PictureFile {
   static bool sameKind(const OIIO::ImageSpec& spec, int a, int b) {
     const auto isInteger = [&](int c) { return spec.channelformat(c) == OIIO::TypeDesc::UINT32; };
     return isInteger(a) == isInteger(b);
+  }
+
+  /// Whether those channels are all that are wanted, in their order, and cover the display window.
+  static bool isWhole(const ExrPart& header, std::span<const std::pair<int, size_t>> wanted, size_t channels) {
+    const auto same = [](const ExrWindow& a, const ExrWindow& b) {
+      return a.x == b.x && a.y == b.y && a.width == b.width && a.height == b.height;
+    };
+    return wanted.size() == channels && same(header.data, header.display) &&
+           std::ranges::is_sorted(wanted, {}, &std::pair<int, size_t>::second);
   }
 
   /// Copies neighbouring channels of the data window to where they belong in the display window.

@@ -22,14 +22,14 @@ constexpr uint32_t kTiled = 0x200, kLongNames = 0x400, kNonImage = 0x800, kMulti
 constexpr size_t kMaxParts = 1024;
 
 /// How a compression groups lines, and the most bytes that one byte of it can become: deflate gives 1032 (PXR24 drops a
-/// quarter before it), run lengths 64, PIZ's Huffman code 410 on a constant picture, B44 and B44A 32 of 14 and 3. DWA
-/// deflates what a cosine transform leaves.
+/// quarter before it), run lengths 64, PIZ's Huffman code 410 on a constant picture, B44 and B44A 32 of 14 and 3. DWA codes
+/// 8 x 8 pixels of a constant picture as two numbers, by Huffman and deflate.
 struct Compression {
   int64_t lines;
   uint64_t ratio;
 };
 constexpr Compression kCompressions[] = {{1, 1},     {1, 64}, {1, 1032}, {16, 1032},    {32, 1024},
-                                         {16, 1376}, {32, 3}, {32, 11},  {32, 1 << 17}, {256, 1 << 17}};
+                                         {16, 1376}, {32, 3}, {32, 11},  {32, 1 << 16}, {256, 1 << 16}};
 
 /// Attributes that decide about pixels, and the types they must have.
 struct Known {
@@ -233,19 +233,33 @@ void checkPart(const fs::path& path, const Reader& reader, const Header& header)
   }
 }
 
+uint64_t bytesPerPixel(const ExrPart& part) {
+  constexpr std::array<uint64_t, 3> kBytes = {4, 2, 4};
+  uint64_t sum = 0;
+  for (const ExrChannel& channel : part.channels) sum += channel.isSubsampled ? 0 : kBytes[channel.type];
+  return sum;
+}
+
+/// The library holds some tiles or groups of lines at once, with all their channels.
+void checkChunk(const fs::path& path, const Header& header) {
+  constexpr uint64_t kMostBytes = uint64_t{1} << 30;
+  const int64_t lines = std::min(kCompressions[header.compression].lines, header.part.data.height);
+  const int64_t pixels = header.tiles ? header.tiles->width * header.tiles->height : header.part.data.width * lines;
+  if (static_cast<uint64_t>(pixels) * bytesPerPixel(header.part) <= kMostBytes) return;
+  failImage(path, "has " + std::to_string(header.part.channels.size()) + " channels in pieces of " +
+                      std::to_string(pixels) + " pixels, larger than the 2^30 bytes that are read at once");
+}
+
 /// What all parts claim against what stands behind the headers.
 void checkSizes(const Reader& reader, const std::vector<Header>& headers) {
   constexpr uint64_t kBytesPerChunk = 8 + 8;  // its entry in the table of offsets; its own place and size
-  constexpr std::array<uint64_t, 3> kBytes = {4, 2, 4};
   uint64_t chunks = 0;
   double compressed = 0.0;
   for (const Header& header : headers) {
     const ExrPart& part = header.part;
     chunks += static_cast<uint64_t>(chunksOf(header));
     if (part.isDeep) continue;
-    uint64_t perPixel = 0;
-    for (const ExrChannel& channel : part.channels) perPixel += channel.isSubsampled ? 0 : kBytes[channel.type];
-    compressed += static_cast<double>(perPixel) * static_cast<double>(part.data.width * part.data.height) /
+    compressed += static_cast<double>(bytesPerPixel(part)) * static_cast<double>(part.data.width * part.data.height) /
                   static_cast<double>(kCompressions[header.compression].ratio);
   }
   if (chunks * kBytesPerChunk <= reader.rest() && compressed <= static_cast<double>(reader.rest())) return;
@@ -273,6 +287,7 @@ std::vector<ExrPart> readExrHeaders(const fs::path& path, std::span<std::byte> f
     if (isTiled && !header.tiles) reader.fail("attribute 'tiles' is missing");
     if (!isTiled) header.tiles.reset();
     checkPart(path, reader, header);
+    checkChunk(path, header);
     headers.push_back(std::move(header));
     if (!isMultiPart) break;
     if (headers.size() > kMaxParts) reader.fail("it has more than " + std::to_string(kMaxParts) + " parts");

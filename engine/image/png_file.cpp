@@ -95,13 +95,17 @@ uint32_t bigEndian(std::span<const std::byte> bytes) {
   return value;
 }
 
-/// Bytes of all IDAT chunks. Throws unless the chunks lead to an end within the file.
+/// Bytes of all IDAT chunks. Throws unless the chunks begin with a whole header and lead to an end within the file.
 uint64_t compressedBytes(const fs::path& path, std::span<const std::byte> bytes) {
   constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
   const auto text = [&](size_t offset, size_t count) {
     return std::string_view(reinterpret_cast<const char*>(bytes.data()) + offset, count);
   };
   if (bytes.size() < 8 || text(0, 8) != kSignature) failImage(path, "is not a PNG file");
+  constexpr size_t kHeaderEnd = 8 + 12 + 13;
+  if (bytes.size() < kHeaderEnd || bigEndian(bytes.subspan(8)) != 13 || text(12, 4) != "IHDR") {
+    failImage(path, "is damaged or truncated: it has no header");
+  }
   uint64_t sum = 0;
   for (size_t offset = 8; bytes.size() - offset >= 12;) {
     const size_t length = bigEndian(bytes.subspan(offset));
@@ -118,17 +122,11 @@ class PngFile : public PictureFile {
  public:
   PngFile(const fs::path& path, std::vector<std::byte> bytes)
       : path_(path), bytes_(std::move(bytes)), compressed_(compressedBytes(path, bytes_)), decoder_(bytes_) {
-    if (!readHead(decoder_)) {
-      // libpng's limits are ours, but what it says of them is no help.
-      const auto head = std::span<const std::byte>(bytes_).subspan(16);
-      if (bigEndian(head) <= INT32_MAX && bigEndian(head.subspan(4)) <= INT32_MAX && isLimit()) {
-        requireReadableSize(path_, bigEndian(head), bigEndian(head.subspan(4)));
-      }
-      fail();
-    }
+    const auto head = std::span<const std::byte>(bytes_).subspan(16);
+    requireReadableSize(path_, bigEndian(head), bigEndian(head.subspan(4)));  // libpng would call it invalid
+    if (!readHead(decoder_)) fail();
     width_ = png_get_image_width(decoder_.png, decoder_.info);
     height_ = png_get_image_height(decoder_.png, decoder_.info);
-    requireReadableSize(path_, width_, height_);
     requireEnoughBytes();
     isPaletted_ = png_get_color_type(decoder_.png, decoder_.info) == PNG_COLOR_TYPE_PALETTE;
     storedBits_ = png_get_bit_depth(decoder_.png, decoder_.info);
@@ -167,7 +165,6 @@ class PngFile : public PictureFile {
   [[noreturn]] void fail() const {
     failImage(path_, "is damaged or truncated: " + std::string(decoder_.stream.error.data()));
   }
-  bool isLimit() const { return bigEndian(std::span(bytes_).subspan(12)) == 0x49484452; }  // "IHDR"
 
   /// No deflate stream gives more than 1032 times its size. What is missing shows before memory is taken for it.
   void requireEnoughBytes() const {

@@ -139,6 +139,13 @@ TEST(DepthChannel, IsInfiniteOutsideTheDataWindow) {
   EXPECT_THAT(depth(ExrWriter::file({cropped})).image.samples, ElementsAre(infinity, 5, 5, infinity));
 }
 
+TEST(DepthChannel, OfOneLayerInSeveralPartsIsNamedByItsPart) {
+  const auto eyes = ExrWriter::file({part("left", {{"Depth.Z", 5}}), part("right", {{"Depth.Z", 6}})});
+  EXPECT_THAT(errorOf([&] { depth(eyes); }), HasSubstr("left.Depth.Z, right.Depth.Z"));
+  EXPECT_EQ(depth(eyes, "right.Depth.Z").image.samples.at(0), 6.0f);
+  EXPECT_EQ(depth(eyes, "right.Depth.Z").from.part, "right");
+}
+
 // ---- Depth as integers
 
 PictureRead depthOfPng(const Bytes& bytes, const std::string& channel = {}) {
@@ -198,6 +205,20 @@ TEST(ColorLayer, SeveralAreListedAndOneIsChosen) {
   EXPECT_THAT(errorOf([&] { color(bytes, "c"); }), AllOf(HasSubstr("'c'"), HasSubstr("a, b")));
 }
 
+TEST(ColorLayer, DataInChannelsCalledLikeColoursAreNone) {
+  const Bytes bytes = rawExr({{"main.R", 1},
+                              {"main.G", 2},
+                              {"main.B", 3},
+                              {"CryptoObject00.r", 4},
+                              {"CryptoObject00.g", 5},
+                              {"CryptoObject00.b", 6},
+                              {"Normal.R", 7},
+                              {"Normal.G", 8},
+                              {"Normal.B", 9}});
+  EXPECT_EQ(color(bytes).from.layer, "main");
+  EXPECT_EQ(color(bytes, "Normal").image.samples.at(0), 7.0f) << "when asked for";
+}
+
 TEST(ColorLayer, LettersMayBeInEitherCase) {
   EXPECT_EQ(color(rawExr({{"r", 1}, {"g", 2}, {"b", 3}, {"a", 4}})).image.channels, 4u);
   EXPECT_EQ(color(rawExr({{"red", 1}, {"green", 2}, {"blue", 3}})).image.samples.at(1), 2.0f);
@@ -229,6 +250,19 @@ TEST(ColorLayer, DeepPartsAreLeftOutAndSaidWhenNothingElseIsThere) {
   deep.type = "deepscanline";
   deep.attributes = {{"version", "int", ExrWriter::word(1)}};
   EXPECT_THAT(errorOf([&] { color(ExrWriter::file({deep, deep}, 0x800)); }), HasSubstr("deep data, which is not read"));
+}
+
+TEST(ColorLayer, ChannelsKeepTheirPlacesWhateverTheirOrderInTheFile) {
+  ExrPartData cropped{.name = "", .channels = {}, .width = 2, .height = 1, .attributes = {}};
+  for (const auto& [name, value] :
+       Channels{{"A", 4}, {"AA", 9}, {"B", 3}, {"Blue2", 9}, {"G", 2}, {"GG", 9}, {"R", 1}}) {
+    cropped.channels.push_back({name, {value, value + 10}});
+  }
+  cropped.dataX = -1;
+  cropped.displayWidth = 2;
+  cropped.displayHeight = 2;
+  EXPECT_THAT(color(ExrWriter::file({cropped})).image.samples,
+              ElementsAre(11, 12, 13, 14, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0));
 }
 
 // ---- Pictures that failed

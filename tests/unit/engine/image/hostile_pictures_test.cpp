@@ -115,6 +115,15 @@ TEST_F(Hostile, ExrOfFewBytesCannotClaimManyPixels) {
               HasSubstr("compression is unknown"));
 }
 
+TEST_F(Hostile, ExrPiecesAreBounded) {
+  ExrPartData wide = grey(2, 2);
+  for (int i = 0; i < 100; ++i) wide.channels.push_back({"more" + std::to_string(i), {1}});
+  const std::string window = ExrWriter::box(0, 0, 60000, 256);
+  wide.attributes = {
+      {"dataWindow", "box2i", window}, {"displayWindow", "box2i", window}, {"compression", "compression", "\x09"}};
+  EXPECT_THAT(errorOfReading(ExrWriter::file({wide}), "a.exr"), HasSubstr("103 channels in pieces of 15360000 pixels"));
+}
+
 TEST_F(Hostile, ExrTilesAreBounded) {
   const auto tiled = [](uint32_t width, uint32_t height, char mode) {
     return ExrAttribute{"tiles", "tiledesc", ExrWriter::word(width) + ExrWriter::word(height) + mode};
@@ -260,6 +269,12 @@ TEST_F(Hostile, DamagedPngSaysNothingByItself) {
     EXPECT_THAT(error, testing::AnyOf(StartsWith("a.png: "), testing::Eq("no error"))) << i;
   }
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST_F(Hostile, PngWithoutAHeaderIsRefused) {
+  Bytes png = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
+  test::appendChunk(png, "IEND", {});
+  EXPECT_THAT(errorOfReading(png, "a.png"), HasSubstr("no header"));
 }
 
 TEST_F(Hostile, PngLargerThanTheLimitsSaysSo) {
