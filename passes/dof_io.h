@@ -29,6 +29,8 @@ struct DofInputs {
   rendergraph::Image color;
   /// … and depth: any single-channel format; vergence = lens.vergenceScale · value + lens.vergenceOffset.
   rendergraph::Image depth;
+  /// Whether alpha of `color` may differ from 1. It is blurred as the colours are.
+  bool colorHasAlpha = false;
 
   /// For techniques that draw (TechniqueInput::scene). Null otherwise; must outlive the recording.
   const SceneDraw* scene = nullptr;
@@ -40,7 +42,7 @@ struct DofInputs {
 };
 
 struct DofOutputs {
-  rendergraph::Image color;  ///< Linear HDR RGBA, alpha 1, RGBA32F.
+  rendergraph::Image color;  ///< Linear HDR RGBA, RGBA32F; alpha 1, except of an image that has it.
   /// Raw reversed depth of the pinhole view, for techniques that draw one; default-made otherwise.
   rendergraph::Image depth;
   /// Standard error of the luma of `color`, R32F, of progressive techniques; default-made otherwise.

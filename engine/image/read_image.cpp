@@ -1,189 +1,140 @@
-// Reads picture files with OpenImageIO. See image_io.h for the conventions.
-//
-// OpenImageIO is asked for raw values: alpha is never multiplied for us (oiio:UnassociatedAlpha) and no colour space is
-// converted; sRGB and premultiplication are done here, in linear light, where OpenImageIO would do them encoded.
-#include <OpenImageIO/imageio.h>
-
-#include <cstdint>
-#include <fstream>
-#include <memory>
+// Reads pictures: what image_io.h says, joined from the formats' readers and the choice of channels.
+#include <algorithm>
+#include <array>
 #include <new>
 #include <string>
-#include <string_view>
-#include <system_error>
 #include <vector>
 
 #include "engine/error.h"
+#include "engine/image/channel_choice.h"
+#include "engine/image/image_bytes.h"
 #include "engine/image/image_format.h"
 #include "engine/image/image_io.h"
 #include "engine/image/metrics.h"
+#include "engine/image/picture_file.h"
 
 namespace lensgraph::engine {
 namespace {
 
 namespace fs = std::filesystem;
 
-// More pixels than this are taken for a damaged header: 16384 x 16384 is the largest picture of today's
-// devices.
-constexpr int64_t kMaxPixels = int64_t{1} << 28;
-constexpr int kMaxChannels = 1024;
-
-struct Input {
-  std::unique_ptr<OIIO::ImageInput> file;
-  OIIO::ImageSpec spec;  ///< A copy: the file's own may change while reading.
-  ImageFormat format;
-};
-
-void requireReadableFile(const fs::path& path) {
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (!fs::exists(status)) failImage(path, "no such file");
-  if (fs::is_directory(status)) failImage(path, "is a folder, not an image");
-  const auto bytes = fs::file_size(path, error);
-  if (!error && bytes == 0) failImage(path, "is empty (0 bytes)");
-}
-
-// Walks the chunks of a PNG to its end. libpng would find a truncated file too, but reports it on stderr by
-// itself.
-void requireWholePng(const fs::path& path) {
-  constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
-  std::ifstream stream(path, std::ios::binary);
-  char head[8] = {};
-  if (!stream.read(head, 8) || std::string_view(head, 8) != kSignature) failImage(path, "is not a PNG file");
-  const auto end = static_cast<int64_t>(fs::file_size(path));
-  for (int64_t offset = 8; stream.read(head, 8);) {
-    uint32_t length = 0;
-    for (int i = 0; i < 4; ++i) length = length << 8 | static_cast<unsigned char>(head[i]);
-    offset += 12 + int64_t{length};  // length, type, data, checksum
-    if (offset > end) break;
-    if (std::string_view(head + 4, 4) == "IEND") return;
-    stream.seekg(offset);
+std::unique_ptr<PictureFile> openPicture(const fs::path& path, ImageFormat format, std::vector<std::byte> bytes) {
+  switch (format) {
+    case ImageFormat::exr:
+      return openExr(path, std::move(bytes));
+    case ImageFormat::png:
+      return openPng(path, std::move(bytes));
+    case ImageFormat::hdr:
+      return openHdr(path, std::move(bytes));
   }
-  failImage(path, "is damaged or truncated");
+  failImage(path, "is of an unknown format");
 }
 
-Input openInput(const fs::path& path) {
-  Input input;
-  input.format = imageFormatOf(path);
-  requireReadableFile(path);
-  if (input.format == ImageFormat::png) requireWholePng(path);
-  OIIO::ImageSpec config;
-  config.attribute("oiio:UnassociatedAlpha", 1);
-  input.file = OIIO::ImageInput::open(path.string(), &config);
-  if (!input.file) failImage(path, "is not a readable image: " + OIIO::geterror());
-  input.spec = input.file->spec();
-  const OIIO::ImageSpec& spec = input.spec;
-  if (spec.deep) failImage(path, "holds deep data, which is not read");
-  if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) failImage(path, "has no pixels");
-  if (spec.depth > 1) failImage(path, "is a volume, not an image");
-  if (int64_t{spec.width} * spec.height > kMaxPixels || spec.nchannels > kMaxChannels) {
-    failImage(path, "claims " + std::to_string(spec.width) + "x" + std::to_string(spec.height) +
-                        " pixels, more than can be read");
-  }
-  return input;
-}
-
-// All channels of the data window as float, raw.
-std::vector<float> readSamples(const fs::path& path, Input& input) {
-  const OIIO::ImageSpec& spec = input.spec;
-  std::vector<float> samples(static_cast<size_t>(spec.width) * spec.height * spec.nchannels);
-  if (!input.file->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, samples.data())) {
-    failImage(path, "is damaged or truncated: " + input.file->geterror());
-  }
-  return samples;
-}
-
-// Channel of that name, or of that name in the only layer that has one ("beauty.R"); -1 when there is none.
-int findChannel(const OIIO::ImageSpec& spec, std::string_view name) {
-  int found = -1;
-  for (int c = 0; c < spec.nchannels; ++c) {
-    const std::string& candidate = spec.channelnames[static_cast<size_t>(c)];
-    if (candidate == name) return c;
-    const size_t dot = candidate.rfind('.');
-    if (dot == std::string::npos || std::string_view(candidate).substr(dot + 1) != name) continue;
-    if (found >= 0) return -1;
-    found = c;
-  }
-  return found;
-}
-
-// Picks channels and places the data window into the display window, with zeros around it.
-FloatImage pickChannels(const fs::path& path, const OIIO::ImageSpec& spec, const std::vector<float>& samples,
-                        const std::vector<int>& channels) {
-  const int64_t width = spec.full_width > 0 ? spec.full_width : spec.width;
-  const int64_t height = spec.full_height > 0 ? spec.full_height : spec.height;
-  if (width * height > kMaxPixels) failImage(path, "has a display window larger than can be read");
-  FloatImage image(static_cast<uint32_t>(width), static_cast<uint32_t>(height), static_cast<uint32_t>(channels.size()));
-  for (int y = 0; y < spec.height; ++y) {
-    const int64_t targetY = int64_t{spec.y} + y - spec.full_y;
-    if (targetY < 0 || targetY >= height) continue;
-    for (int x = 0; x < spec.width; ++x) {
-      const int64_t targetX = int64_t{spec.x} + x - spec.full_x;
-      if (targetX < 0 || targetX >= width) continue;
-      const float* source = samples.data() + (static_cast<size_t>(y) * spec.width + x) * spec.nchannels;
-      float* target = image.pixel(static_cast<uint32_t>(targetX), static_cast<uint32_t>(targetY));
-      for (size_t c = 0; c < channels.size(); ++c) target[c] = source[channels[c]];
-    }
-  }
-  return image;
-}
-
-std::vector<int> colorChannels(const fs::path& path, const OIIO::ImageSpec& spec) {
-  const int r = findChannel(spec, "R"), g = findChannel(spec, "G"), b = findChannel(spec, "B"),
-            a = findChannel(spec, "A");
-  if (r >= 0 && g >= 0 && b >= 0) return a >= 0 ? std::vector<int>{r, g, b, a} : std::vector<int>{r, g, b};
-  if (spec.nchannels == 1) return {0};
-  const int grey = findChannel(spec, "Y");
-  if (grey >= 0) return a >= 0 ? std::vector<int>{grey, grey, grey, a} : std::vector<int>{grey};
-  std::string names;
-  for (const std::string& name : spec.channelnames) names += (names.empty() ? "" : ", ") + name;
-  failImage(path, "has no colour channels R, G, B; it has " + names);
-}
-
-// PNG values to linear, premultiplied. Grey and RGB are encoded, alpha never is.
-void decodePng(FloatImage& image, const OIIO::ImageSpec& spec) {
-  const std::string space = spec.get_string_attribute("oiio:ColorSpace", "sRGB");
-  const bool isEncoded = !OIIO::Strutil::iequals(space, "linear");
+// Integers to linear, premultiplied light. Grey and RGB may be encoded, alpha never is.
+void decodeIntegers(FloatImage& image, float largest, bool isEncoded) {
   const uint32_t colors = image.channels == 4 ? 3 : image.channels;
   for (size_t i = 0; i < image.pixelCount(); ++i) {
     float* p = image.samples.data() + i * image.channels;
+    for (uint32_t c = 0; c < image.channels; ++c) p[c] /= largest;
     const float alpha = image.channels == 4 ? p[3] : 1.0f;
     for (uint32_t c = 0; c < colors; ++c) p[c] = (isEncoded ? linearFromSrgb(p[c]) : p[c]) * alpha;
   }
 }
 
-}  // namespace
+PictureRead readColor(const fs::path& path, PictureFile& file, const ChannelChoice& layer) {
+  ChosenChannels choice = chooseColor(path, file.parts(), layer);
+  FloatImage image = file.read(choice.part, choice.channels, 0.0f);
+  const uint32_t largest = file.largestInteger();
+  if (largest > 0) decodeIntegers(image, static_cast<float>(largest), file.isEncoded());
+  return {std::move(image), std::move(choice.names), largest};
+}
 
-FloatImage readImage(const fs::path& path) {
+/// Programs write grey as three equal channels; which one is read then does not matter. `names` becomes the one read.
+FloatImage readEqualChannels(const fs::path& path, PictureFile& file, const ChannelChoice& choice,
+                             ChannelsRead& names) {
+  constexpr std::array<size_t, 3> kRgb = {0, 1, 2};
+  const FloatImage rgb = file.read(0, kRgb, 0.0f);
+  FloatImage depth(rgb.width, rgb.height, 1);
+  for (size_t i = 0; i < depth.samples.size(); ++i) {
+    const float* p = rgb.samples.data() + 3 * i;
+    if (p[0] != p[1] || p[0] != p[2]) {
+      failImage(path, "is in colour; depth is one channel, or three equal ones",
+                choice.option.empty() ? "" : "choose one with " + choice.option + " NAME");
+    }
+    depth.samples[i] = p[0];
+  }
+  names = {.part = {}, .layer = {}, .channels = {"R", "G", "B"}};
+  return depth;
+}
+
+PictureRead readDepth(const fs::path& path, PictureFile& file, const ChannelChoice& channel) {
+  constexpr float kNothingThere = std::numeric_limits<float>::infinity();
+  const bool isPng = file.largestInteger() > 0;
+  if (isPng) file.requireWholeSamples();
+  if (isPng && channel.name.empty()) {
+    ChannelsRead names{.part = {}, .layer = {}, .channels = {"Y"}};
+    const bool isGrey = file.parts().front().channels.size() < 3;
+    constexpr std::array<size_t, 1> kFirst = {0};
+    FloatImage image = isGrey ? file.read(0, kFirst, 0.0f) : readEqualChannels(path, file, channel, names);
+    return {std::move(image), std::move(names), file.largestInteger()};
+  }
+  ChosenChannels choice = chooseDepth(path, file.parts(), channel);
+  return {file.read(choice.part, choice.channels, kNothingThere), std::move(choice.names), file.largestInteger()};
+}
+
+template <class Read>
+PictureRead guarded(const fs::path& path, Read read) {
   try {
-    Input input = openInput(path);
-    const std::vector<int> channels = colorChannels(path, input.spec);
-    const std::vector<float> samples = readSamples(path, input);
-    FloatImage image = pickChannels(path, input.spec, samples, channels);
-    if (input.format == ImageFormat::png) decodePng(image, input.spec);
-    return image;
+    return read();
   } catch (const std::bad_alloc&) {
     failImage(path, "does not fit into memory", {}, ErrorKind::failed);
   }
 }
 
+std::vector<std::byte> copyOf(const fs::path& path, std::span<const std::byte> bytes) {
+  if (bytes.empty()) failImage(path, "is empty (0 bytes)");
+  return {bytes.begin(), bytes.end()};
+}
+
+}  // namespace
+
+void requireReadableSize(const fs::path& path, int64_t width, int64_t height) {
+  if (width < 1 || height < 1) failImage(path, "has no pixels");
+  if (width <= kMaxSide && height <= kMaxSide && width * height <= kMaxPixels) return;
+  failImage(path, "is " + std::to_string(width) + "x" + std::to_string(height) + " px, larger than what is read (" +
+                      std::to_string(kMaxSide) + " px a side, 2^28 pixels in all)");
+}
+
+PictureRead readImage(const fs::path& path, const ChannelChoice& layer) {
+  return guarded(path, [&] {
+    const ImageFormat format = imageFormatOf(path);
+    return readColor(path, *openPicture(path, format, readImageBytes(path)), layer);
+  });
+}
+
+PictureRead readDepth(const fs::path& path, const ChannelChoice& channel) {
+  return guarded(path, [&] {
+    const ImageFormat format = imageFormatOf(path);
+    return readDepth(path, *openPicture(path, format, readImageBytes(path)), channel);
+  });
+}
+
+PictureRead readImage(std::span<const std::byte> bytes, const fs::path& name, const ChannelChoice& layer) {
+  return guarded(name,
+                 [&] { return readColor(name, *openPicture(name, imageFormatOf(name), copyOf(name, bytes)), layer); });
+}
+
+PictureRead readDepth(std::span<const std::byte> bytes, const fs::path& name, const ChannelChoice& channel) {
+  return guarded(
+      name, [&] { return readDepth(name, *openPicture(name, imageFormatOf(name), copyOf(name, bytes)), channel); });
+}
+
+FloatImage readImage(const fs::path& path) {
+  return readImage(path, ChannelChoice{}).image;
+}
+
 FloatImage readDepth(const fs::path& path) {
-  try {
-    Input input = openInput(path);
-    if (input.format == ImageFormat::png)
-      failImage(path, "PNG files cannot hold depth", "give depth as an EXR with a channel Z");
-    int channel = -1;
-    for (const char* name : {"Z", "depth", "Depth", "Y", "V"}) {
-      if (channel < 0) channel = findChannel(input.spec, name);
-    }
-    if (channel < 0 && input.spec.nchannels == 1) channel = 0;
-    if (channel < 0) channel = findChannel(input.spec, "R");
-    if (channel < 0) failImage(path, "has no depth channel", "name it Z");
-    const std::vector<float> samples = readSamples(path, input);
-    return pickChannels(path, input.spec, samples, {channel});
-  } catch (const std::bad_alloc&) {
-    failImage(path, "does not fit into memory", {}, ErrorKind::failed);
-  }
+  return readDepth(path, ChannelChoice{}).image;
 }
 
 }  // namespace lensgraph::engine

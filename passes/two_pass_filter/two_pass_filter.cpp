@@ -9,10 +9,12 @@
 #include "rendergraph/error.h"
 #include "shaders/shared/statistics.h"
 #include "shaders/shared/two_pass_filter.h"
+#include "spirv/two_pass_filter/horizontal_alpha_comp.h"
 #include "spirv/two_pass_filter/horizontal_comp.h"
 #include "spirv/two_pass_filter/prepare_comp.h"
 #include "spirv/two_pass_filter/reach_comp.h"
 #include "spirv/two_pass_filter/tiles_comp.h"
+#include "spirv/two_pass_filter/vertical_alpha_comp.h"
 #include "spirv/two_pass_filter/vertical_comp.h"
 
 namespace lensgraph::passes::two_pass_filter {
@@ -28,6 +30,8 @@ const ComputeProgram kPrepare{"two_pass_filter.prepare", two_pass_filter_prepare
 const ComputeProgram kTiles{"two_pass_filter.tiles", two_pass_filter_tiles_comp};
 const ComputeProgram kReach{"two_pass_filter.reach", two_pass_filter_reach_comp};
 const ComputeProgram kVertical{"two_pass_filter.vertical", two_pass_filter_vertical_comp};
+const ComputeProgram kVerticalAlpha{"two_pass_filter.vertical_alpha", two_pass_filter_vertical_alpha_comp};
+const ComputeProgram kHorizontalAlpha{"two_pass_filter.horizontal_alpha", two_pass_filter_horizontal_alpha_comp};
 const ComputeProgram kHorizontal{"two_pass_filter.horizontal", two_pass_filter_horizontal_comp};
 
 /// rgb and CoC of one pixel in one load. Half floats would be slower here and round the CoC to 1/1024 of
@@ -39,6 +43,7 @@ struct Frame {
   VkExtent2D extent;
   rendergraph::Groups tiles;
   shared::TwoPassFilterConstants constants;
+  bool keepsAlpha;
 
   rendergraph::ImageDesc image() const {
     return {.format = kFilterFormat, .width = extent.width, .height = extent.height};
@@ -47,7 +52,10 @@ struct Frame {
 };
 
 Frame frameOf(const DofInputs& inputs, const Parameters& parameters) {
-  Frame frame{.extent = inputs.extent, .tiles = groupsFor(inputs.extent, shared::kTwoPassFilterTile), .constants = {}};
+  Frame frame{.extent = inputs.extent,
+              .tiles = groupsFor(inputs.extent, shared::kTwoPassFilterTile),
+              .constants = {},
+              .keepsAlpha = inputs.colorHasAlpha};
   auto& constants = frame.constants;
   constants.lens = inputs.lens;
   constants.maxRadius = parameters.maxRadius;
@@ -73,19 +81,32 @@ void requireSize(const Graph& graph, Image image, const char* name, VkExtent2D e
                                   .where = std::source_location::current()}});
 }
 
-Image declarePrepare(Graph& graph, const DofInputs& inputs, const Frame& frame, Buffer& statistics) {
-  Image prepared = graph.createImage("two_pass_filter.prepared", frame.image());
+/// A picture between two passes: rgb and CoC, and alpha where it is kept.
+struct Filtered {
+  Image image;
+  Buffer alphas;
+};
+
+Filtered createFiltered(Graph& graph, const Frame& frame, const char* imageName, const char* alphasName) {
+  Filtered created{graph.createImage(imageName, frame.image()), {}};
+  const VkDeviceSize pixels = VkDeviceSize{frame.extent.width} * frame.extent.height;
+  if (frame.keepsAlpha) created.alphas = graph.createBuffer(alphasName, {.size = pixels * sizeof(float)});
+  return created;
+}
+
+Filtered declarePrepare(Graph& graph, const DofInputs& inputs, const Frame& frame, Buffer& statistics) {
+  Filtered prepared = createFiltered(graph, frame, "two_pass_filter.prepared", "two_pass_filter.prepared_alphas");
   // A view of a depth-stencil image that is sampled must name one aspect.
   rendergraph::Subresources depthRange = rendergraph::mip(0);
   depthRange.aspects =
       rendergraph::aspectsOf(graph.desc(inputs.depth).format) & (VK_IMAGE_ASPECT_COLOR_BIT | VK_IMAGE_ASPECT_DEPTH_BIT);
-  compute(graph, kPrepare.name, kPrepare)
-      .sample(inputs.color, rendergraph::kNearest, rendergraph::mip(0))
+  auto pass = compute(graph, kPrepare.name, kPrepare);
+  pass.sample(inputs.color, rendergraph::kNearest, rendergraph::mip(0))
       .sample(inputs.depth, rendergraph::kNearest, depthRange)
-      .write(prepared)
-      .modify(statistics)
-      .push(frame.constants)
-      .groups(frame.tiles);
+      .write(prepared.image)
+      .modify(statistics);
+  frame.keepsAlpha ? pass.write(prepared.alphas) : pass.placeholder();
+  pass.push(frame.constants).specialize({frame.keepsAlpha}).groups(frame.tiles);
   return prepared;
 }
 
@@ -111,16 +132,21 @@ Buffer declareReach(Graph& graph, const Frame& frame, Buffer tileRadii) {
   return tileTaps;
 }
 
-/// One direction of the filter.
-Image declareFilter(Graph& graph, const Frame& frame, const ComputeProgram& program, Image source, Buffer tileTaps,
-                    const char* resultName) {
-  Image result = graph.createImage(resultName, frame.image());
-  compute(graph, program.name, program)
-      .read(source)
-      .write(result)
-      .read(tileTaps)
-      .push(frame.constants)
-      .groups(frame.tiles);
+Filtered declareVertical(Graph& graph, const Frame& frame, const Filtered& source, Buffer tileTaps) {
+  Filtered columns = createFiltered(graph, frame, "two_pass_filter.columns", "two_pass_filter.column_alphas");
+  auto pass = compute(graph, kVertical.name, frame.keepsAlpha ? kVerticalAlpha : kVertical);
+  pass.read(source.image).write(columns.image).read(tileTaps);
+  if (frame.keepsAlpha) pass.read(source.alphas).write(columns.alphas);
+  pass.push(frame.constants).groups(frame.tiles);
+  return columns;
+}
+
+Image declareHorizontal(Graph& graph, const Frame& frame, const Filtered& source, Buffer tileTaps) {
+  Image result = graph.createImage("two_pass_filter.color", frame.image());
+  auto pass = compute(graph, kHorizontal.name, frame.keepsAlpha ? kHorizontalAlpha : kHorizontal);
+  pass.read(source.image).write(result).read(tileTaps);
+  if (frame.keepsAlpha) pass.read(source.alphas);
+  pass.push(frame.constants).groups(frame.tiles);
   return result;
 }
 
@@ -154,11 +180,11 @@ DofOutputs declare(Graph& graph, const DofInputs& inputs, const Parameters& para
 
   const Frame frame = frameOf(inputs, parameters);
   outputs.statistics = declareStatistics(graph, "two_pass_filter");
-  const Image prepared = declarePrepare(graph, inputs, frame, outputs.statistics);
-  const Buffer tileRadii = declareTiles(graph, frame, prepared, outputs.statistics);
+  const Filtered prepared = declarePrepare(graph, inputs, frame, outputs.statistics);
+  const Buffer tileRadii = declareTiles(graph, frame, prepared.image, outputs.statistics);
   const Buffer tileTaps = declareReach(graph, frame, tileRadii);
-  const Image columns = declareFilter(graph, frame, kVertical, prepared, tileTaps, "two_pass_filter.columns");
-  outputs.color = declareFilter(graph, frame, kHorizontal, columns, tileTaps, "two_pass_filter.color");
+  const Filtered columns = declareVertical(graph, frame, prepared, tileTaps);
+  outputs.color = declareHorizontal(graph, frame, columns, tileTaps);
   return outputs;
 }
 

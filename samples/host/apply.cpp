@@ -1,16 +1,15 @@
 // A technique on two pictures: uploads color and depth, and runs the technique on them instead of on a drawn view.
 #include <algorithm>
-#include <array>
-#include <cmath>
+#include <limits>
 #include <numbers>
 #include <span>
 
 #include "engine/error.h"
 #include "engine/vulkan/command_buffers.h"
 #include "passes/lens/physical_lens.h"
+#include "samples/host/picture_inputs.h"
 #include "samples/host/renderer.h"
 #include "samples/host/renderer_state.h"
-#include "samples/host/shot_scene.h"
 #include "samples/host/texels.h"
 #include "samples/host/warnings.h"
 
@@ -23,20 +22,8 @@ namespace {
 
 /// Vergence of a depth picture's sample; what is not a positive depth is infinitely far.
 float vergenceOf(float depth) {
-  return depth > 0.0f && depth < kNothingHit ? 1.0f / depth : 0.0f;
-}
-
-/// Opaque black for every pixel of an RGBA picture that is not finite; how many there were. At the input, so that a
-/// technique that hands its input through (no aperture) gives finite pictures too.
-uint32_t replaceNonFinite(engine::FloatImage& picture) {
-  uint32_t replaced = 0;
-  for (std::size_t i = 0; i < picture.samples.size(); i += 4) {
-    const auto texel = std::span(picture.samples).subspan(i, 4);
-    if (std::ranges::all_of(texel, [](float value) { return std::isfinite(value); })) continue;
-    std::ranges::copy(std::array{0.0f, 0.0f, 0.0f, 1.0f}, texel.begin());
-    ++replaced;
-  }
-  return replaced;
+  if (!(depth > 0.0f && depth < kNothingHit)) return 0.0f;
+  return std::min(1.0f / depth, std::numeric_limits<float>::max());
 }
 
 }  // namespace
@@ -57,13 +44,15 @@ Rendering Renderer::apply(const engine::FloatImage& color, const engine::FloatIm
   };
   engine::FloatImage vergence = depth;
   for (float& sample : vergence.samples) sample = vergenceOf(sample);
-  engine::FloatImage finite = withOpaqueAlpha(color);
-  const uint32_t replaced = replaceNonFinite(finite);
+  // At the input, so that a technique that hands its input through (no aperture) gives finite pictures too.
+  engine::FloatImage finite = color;
+  const ColorFindings found = cleanColor(finite);
   const auto colorImage = upload(VK_FORMAT_R32G32B32A32_SFLOAT, finite, "color");
   const auto depthImage = upload(VK_FORMAT_R32_SFLOAT, vergence, "vergence");
 
   DofInputs inputs;
   inputs.extent = {color.width, color.height};
+  inputs.colorHasAlpha = hasAlpha(finite);
   const double fovy = fovyDeg * std::numbers::pi / 180.0;
   inputs.lens = passes::lensConstants(lens, fovy, static_cast<int>(color.height), 1.0);
   inputs.lens.vergenceScale = 1.0f;
@@ -87,7 +76,7 @@ Rendering Renderer::apply(const engine::FloatImage& color, const engine::FloatIm
     now.depth = import(graph, depthImage, "vergence");
     return state_->declareTechnique(graph, now, technique, options.wantDepth);
   });
-  rendering.statistics.replacedTexels += replaced;
+  rendering.statistics.replacedTexels += static_cast<uint32_t>(found.notFinite);
   if (const auto warning = limitedBlurWarning(rendering.statistics.clampedCoc, lens, technique.entry,
                                               options.parameters, static_cast<int>(color.height))) {
     rendering.warnings.push_back(*warning);

@@ -39,8 +39,10 @@ class Renderer {
   /// parameter and the nearest known one) and rendergraph::GraphError.
   Rendering render(const Shot& shot, const RenderOptions& options);
 
-  /// A technique of TechniqueInput::image on pictures: color RGB(A) linear, depth one channel of view depth in
-  /// metres, same size.
+  /// A technique of TechniqueInput::image on pictures of one size: color grey, RGB or RGBA, linear and premultiplied;
+  /// depth one channel, in metres along the axis, where what is not positive is infinitely far (convertDepth() makes it of
+  /// others). Alpha is blurred as the colours are; without it the result's is 1. What no technique can use of the colour
+  /// is replaced as by cleanColor(), and counted in Rendering::statistics.replacedTexels.
   Rendering apply(const engine::FloatImage& color, const engine::FloatImage& depth, double fovyDeg,
                   const passes::Lens& lens, const RenderOptions& options);
 

@@ -16,8 +16,6 @@
 
 namespace lensgraph::host {
 
-inline constexpr float kNothingHit = 1e10f;  ///< m; the depth of the background in pictures.
-
 /// A technique of the registry, configured.
 struct ChosenTechnique {
   const passes::Technique& entry;

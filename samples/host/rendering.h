@@ -15,9 +15,11 @@
 
 namespace lensgraph::host {
 
+inline constexpr float kNothingHit = 1e10f;  ///< m; the depth of the background in pictures.
+
 struct Rendering {
-  engine::FloatImage color;  ///< Linear RGBA.
-  engine::FloatImage depth;  ///< View depth in metres, one channel, 1e10 where nothing is hit; empty for apply.
+  engine::FloatImage color;  ///< Linear RGBA, premultiplied; alpha 1 except of pictures that have it (apply).
+  engine::FloatImage depth;  ///< View depth in metres, one channel, kNothingHit where nothing is hit; empty for apply.
   shared::FrameStatistics statistics{};
   rendergraph::Capture capture;  ///< Of the last execution.
   double gpuMs = 0.0;            ///< Device time of all executions.

@@ -52,15 +52,4 @@ std::optional<engine::Environment> loadShotEnvironment(const Shot& shot) {
                     [&] { return engine::prepareEnvironment(engine::readImage(*shot.environment)); });
 }
 
-engine::FloatImage withOpaqueAlpha(const engine::FloatImage& picture) {
-  if (picture.channels == 4) return picture;
-  engine::FloatImage out(picture.width, picture.height, 4, 1.0f);
-  for (std::size_t i = 0; i < picture.pixelCount(); ++i) {
-    for (uint32_t c = 0; c < 3; ++c) {
-      out.samples[i * 4 + c] = picture.samples[i * picture.channels + (picture.channels >= 3 ? c : 0)];
-    }
-  }
-  return out;
-}
-
 }  // namespace lensgraph::host

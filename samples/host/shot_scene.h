@@ -1,4 +1,4 @@
-// The engine's side of a shot: its scene, its camera, its pictures.
+// The engine's side of a shot: its scene, its camera, its environment.
 #pragma once
 
 #include <optional>
@@ -7,7 +7,6 @@
 
 #include "engine/draw/environment.h"
 #include "engine/error.h"
-#include "engine/image/image.h"
 #include "engine/scene/camera.h"
 #include "engine/scene/scene.h"
 #include "samples/host/shot.h"
@@ -35,8 +34,5 @@ engine::Camera shotCamera(const Shot& shot, const engine::Scene& scene);
 
 /// The picture that lights the shot, prepared; none when it has none. Throws engine::Error.
 std::optional<engine::Environment> loadShotEnvironment(const Shot& shot);
-
-/// RGBA of a picture of one, three or four channels; alpha 1 where there is none.
-engine::FloatImage withOpaqueAlpha(const engine::FloatImage& picture);
 
 }  // namespace lensgraph::host

@@ -130,11 +130,38 @@ Action addRender(CLI::App& app) {
   };
 }
 
+void addDepthMeaning(CLI::App& app, DepthArguments& depth) {
+  app.add_option("--depth-kind", depth.kind,
+                 "z: along the axis (default); ray: along each pixel's ray; disparity: 1/z, and normalized: z, both "
+                 "between --depth-near and --depth-far")
+      ->type_name("KIND")
+      ->check(CLI::IsMember({"z", "ray", "disparity", "normalized"}));
+  app.add_option("--depth-scale", depth.scale,
+                 "Metres per unit of z and ray (default 1; PNG, which holds integers, needs it: .001 for millimetres)")
+      ->type_name("S");
+  app.add_option("--depth-near", depth.nearest, "Nearest depth in metres of disparity and normalized")->type_name("M");
+  app.add_option("--depth-far", depth.farthest,
+                 "Farthest depth in metres of disparity (may be infinity) and normalized")
+      ->type_name("M");
+  app.add_option("--depth-white", depth.white,
+                 "Whether white (1, or the largest integer) is near or far (default: near for disparity, far for "
+                 "normalized)")
+      ->type_name("near|far")
+      ->check(CLI::IsMember({"near", "far"}));
+}
+
 Action addApply(CLI::App& app) {
   auto* sub = app.add_subcommand("apply", "Blur a picture by its depth with a technique that works on images");
   auto a = std::make_shared<ApplyArguments>();
-  sub->add_option("--color", a->color, "Linear colour")->type_name("C.exr")->required();
-  sub->add_option("--depth", a->depth, "Linear view depth in metres")->type_name("Z.exr")->required();
+  sub->add_option("--color", a->color, "Linear colour; alpha, premultiplied, is kept")->type_name("C.exr")->required();
+  sub->add_option("--color-layer", a->colorLayer, "Layer of an EXR to take as colour (default: found by its name)")
+      ->type_name("NAME");
+  sub->add_option("--depth", a->depth, "Depth, in metres along the axis unless said otherwise; may be the same file")
+      ->type_name("Z.exr|png")
+      ->required();
+  sub->add_option("--depth-channel", a->depthChannel, "Channel to take as depth (default: found by its name)")
+      ->type_name("NAME");
+  addDepthMeaning(*sub, a->depthMeaning);
   sub->add_option("--fovy", a->fovyDeg, "Vertical field of view")->type_name("DEG")->required();
   auto* radius = sub->add_option("--aperture-radius", a->apertureRadius, "Lens radius in metres")->type_name("M");
   auto* focal = sub->add_option("--focal-length-mm", a->focalLengthMm, "Focal length")->type_name("F");

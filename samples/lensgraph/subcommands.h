@@ -52,8 +52,18 @@ struct RenderArguments {
 };
 int runRender(const RenderArguments& arguments, const GlobalArguments& global);
 
+/// What the numbers of a depth picture mean; see host::DepthMeaning.
+struct DepthArguments {
+  std::optional<std::string> kind;          ///< "z", "ray", "disparity" or "normalized".
+  std::optional<double> scale;              ///< m per unit.
+  std::optional<double> nearest, farthest;  ///< m
+  std::optional<std::string> white;         ///< "near" or "far".
+};
+
 struct ApplyArguments {
   std::filesystem::path color, depth;
+  std::string colorLayer, depthChannel;  ///< Empty: found by their names.
+  DepthArguments depthMeaning;
   double fovyDeg = 0.0;
   std::optional<double> apertureRadius;  ///< m
   std::optional<double> focalLengthMm, fStop;

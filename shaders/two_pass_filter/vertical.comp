@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 const ivec2 kAxis = ivec2(0, 1);
-float filteredAlpha(vec4 centre) { return centre.a; }
 
 #include "two_pass_filter/filter.glsl"
+
+void store(ivec2 pixel, vec4 rgba, float radius) { imageStore(target, pixel, vec4(rgba.rgb, radius)); }

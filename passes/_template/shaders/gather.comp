@@ -19,7 +19,7 @@ const float kMostRadiance = 1e30;          // Sums of as many taps as there may 
 
 // By its bits: isnan() may be optimised away where a device does not promise to keep NaN.
 bool isFinite(float x) { return (floatBitsToUint(x) & 0x7f800000u) != 0x7f800000u; }
-bool isFinite(vec3 v) { return isFinite(v.r) && isFinite(v.g) && isFinite(v.b); }
+bool isFinite(vec4 v) { return isFinite(v.r) && isFinite(v.g) && isFinite(v.b) && isFinite(v.a); }
 
 void main() {
   const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
@@ -28,19 +28,19 @@ void main() {
   const float z = texelFetch(depth, pixel, 0).r;
   const float vergence = isFinite(z) ? max(vergenceFromDepthBuffer(push.lens, z), 0.0) : 0.0;  // Unknown depth: the sky's.
   const float radius = min(abs(signedCocRadius(push.lens, vergence)), float(max(push.size.x, push.size.y)));
-  if (!isFinite(texelFetch(color, pixel, 0).rgb) || !isFinite(z)) atomicAdd(statistics.replacedTexels, 1u);
+  if (!isFinite(texelFetch(color, pixel, 0)) || !isFinite(z)) atomicAdd(statistics.replacedTexels, 1u);
 
-  vec3 sum = vec3(0.0);
+  vec4 sum = vec4(0.0);
   float count = 0.0;
   for (uint i = 0; i < push.samples; ++i) {
     const float share = (float(i) + 0.5) / float(push.samples);
     const float angle = float(i) * kGoldenAngle;
     const vec2 offset = radius * sqrt(share) * vec2(cos(angle), sin(angle));
     const ivec2 tap = clamp(pixel + ivec2(round(offset)), ivec2(0), push.size - 1);
-    const vec3 rgb = texelFetch(color, tap, 0).rgb;
-    if (!isFinite(rgb)) continue;
-    sum += clamp(rgb, -kMostRadiance, kMostRadiance);
+    const vec4 rgba = texelFetch(color, tap, 0);
+    if (!isFinite(rgba)) continue;
+    sum += clamp(rgba, -kMostRadiance, kMostRadiance);
     count += 1.0;
   }
-  imageStore(result, pixel, vec4(count > 0.0 ? sum / count : vec3(0.0), 1.0));
+  imageStore(result, pixel, count > 0.0 ? sum / count : vec4(0.0, 0.0, 0.0, 1.0));
 }

@@ -1,7 +1,10 @@
 // lensgraph apply: a technique on a picture and its depth, wherever they come from.
+#include <cstdio>
+
 #include "engine/error.h"
 #include "engine/image/image_io.h"
 #include "samples/lensgraph/capture/inspection.h"
+#include "samples/lensgraph/commands/applied_pictures.h"
 #include "samples/lensgraph/output.h"
 #include "samples/lensgraph/progress.h"
 #include "samples/lensgraph/session.h"
@@ -62,23 +65,14 @@ int runApply(const ApplyArguments& arguments, const GlobalArguments& global) {
     failUsage("--fovy", "must be above 0 and below 180 degrees", "");
   }
   const passes::Lens lens = lensOf(arguments);
+  checkDepthArguments(arguments.depthMeaning);
   Inspection inspection(arguments.inspection);
   if (!arguments.output.empty()) checkOutput(arguments.output, "--output", kPictureExtensions);
   std::vector<OutputFile> files = inspection.outputs();
   files.push_back({arguments.output, "--output"});
   requireDistinct(files);
   if (arguments.exposureEv && !arguments.output.empty()) warnUnusedExposure(arguments.output);
-  const auto color = engine::readImage(arguments.color);
-  const auto depth = engine::readDepth(arguments.depth);
-  if (color.width != depth.width || color.height != depth.height) {
-    const auto size = [](const auto& image) {
-      return std::to_string(image.width) + "x" + std::to_string(image.height);
-    };
-    throw engine::Error({.file = arguments.depth.string(),
-                         .field = "--depth",
-                         .reason = "is " + size(depth) + " px, the colour picture is " + size(color) + " px",
-                         .remedy = "give a depth picture of the same size"});
-  }
+  const AppliedPictures pictures = readAppliedPictures(arguments);
 
   Session session(global);
   host::Renderer renderer(session.device());
@@ -90,7 +84,7 @@ int runApply(const ApplyArguments& arguments, const GlobalArguments& global) {
                               .progress = [&](uint32_t done, uint32_t total) { bar.update(done, total); }};
   const auto& device = session.device().description();
   const auto rendering = inspection.render(device, options, [&](const host::RenderOptions& now) {
-    return renderer.apply(color, depth, arguments.fovyDeg, lens, now);
+    return renderer.apply(pictures.color, pictures.depth, arguments.fovyDeg, lens, now);
   });
   bar.wipe();
   if (inspection.imageDumps().listsOnly()) {
@@ -101,6 +95,7 @@ int runApply(const ApplyArguments& arguments, const GlobalArguments& global) {
   writePicture(arguments.output, rendering.color, arguments.exposureEv);
   inspection.write(device, {arguments.color.string(), {arguments.color, arguments.depth}, &lens}, choice, rendering);
   printSummary(device, choice, rendering);
+  for (const auto& line : pictures.summary) std::printf("%s\n", line.c_str());
   return session.finish();
 }
 

@@ -91,6 +91,7 @@ ImageOutput ImageTechniqueRunner::run(const passes::Technique& technique, const 
   passes::DofInputs inputs;
   inputs.extent = input.extent;
   inputs.lens = input.lens;
+  inputs.colorHasAlpha = input.colorHasAlpha;
   inputs.color = imported(graph, color, "color");
   inputs.depth = imported(graph, depth, "depth");
   EXPECT_TRUE(check(parameters, technique.parameters).empty());

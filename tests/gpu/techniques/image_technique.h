@@ -19,6 +19,7 @@ struct ImageInput {
   std::vector<Rgba> color;   ///< Row by row.
   std::vector<float> depth;  ///< What a depth buffer would hold; see lens.vergenceScale.
   shared::LensConstants lens{};
+  bool colorHasAlpha = false;  ///< As DofInputs::colorHasAlpha.
 };
 
 struct ImageOutput {

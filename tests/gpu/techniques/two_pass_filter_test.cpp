@@ -170,6 +170,52 @@ TEST_F(TwoPassFilterGpu, AConstantColourStaysIncludingTheBorder) {
   }
 }
 
+// ---- Alpha
+
+/// Transparent on the left, opaque on the right, at depths of all kinds; red holds the same as alpha.
+ImageInput halfTransparent() {
+  auto input = randomRectangles({90, 60}, 13, 50.0f);
+  for (uint32_t y = 0; y < 60; ++y) {
+    for (uint32_t x = 0; x < 90; ++x) {
+      auto& texel = input.color[at(input, x, y)];
+      const float alpha = x < 40 ? 0.0f : x < 60 ? 0.5f : 1.0f;
+      texel = {alpha, alpha * texel[1], alpha * texel[2], alpha};
+    }
+  }
+  input.colorHasAlpha = true;
+  return input;
+}
+
+TEST_F(TwoPassFilterGpu, AlphaIsBlurredAsAColourIs) {
+  const auto input = halfTransparent();
+  const auto output = run(input);
+  EXPECT_LT(largestError(output.color, reference(input)), 1e-4);
+  float largestChange = 0.0f;
+  for (std::size_t i = 0; i < output.color.size(); ++i) {
+    ASSERT_EQ(output.color[i][3], output.color[i][0]) << i;
+    largestChange = std::max(largestChange, std::abs(output.color[i][3] - input.color[i][3]));
+  }
+  EXPECT_GT(largestChange, 0.2f) << "nothing was blurred";
+}
+
+TEST_F(TwoPassFilterGpu, AlphaChangesNoColour) {
+  auto input = halfTransparent();
+  const auto kept = run(input).color;
+  input.colorHasAlpha = false;
+  const auto dropped = run(input).color;
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    for (std::size_t c = 0; c < 3; ++c) ASSERT_EQ(kept[i][c], dropped[i][c]) << i;
+    ASSERT_EQ(dropped[i][3], 1.0f) << i;
+  }
+}
+
+TEST_F(TwoPassFilterGpu, AlphaThatIsNoNumberBecomesOpaque) {
+  auto input = halfTransparent();
+  input.color[17][3] = kNaN;
+  input.color[3000][3] = -kInfinity;
+  for (const auto& texel : run(input).color) ASSERT_TRUE(std::isfinite(texel[3]));
+}
+
 // Law 3: finite in, finite out …
 TEST_F(TwoPassFilterGpu, TheLargestFloatsStayFinite) {
   auto input = randomRectangles({90, 60}, 9, 50.0f);

@@ -2,6 +2,7 @@
 // outside judge.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string_view>
 #include <vector>
@@ -36,7 +37,7 @@ enum class PngColor : uint8_t { grey = 0, rgb = 2, greyAlpha = 4, rgba = 6 };
 inline std::vector<uint8_t> rawPng(uint32_t width, uint32_t height, int depth, PngColor color,
                                    const std::vector<uint16_t>& samples) {
   std::vector<uint8_t> rows;
-  const size_t perRow = samples.size() / height;
+  const size_t perRow = std::max<size_t>(samples.size() / height, 1);
   for (size_t i = 0; i < samples.size(); ++i) {
     if (i % perRow == 0) rows.push_back(0);  // no filter
     if (depth == 16) rows.push_back(static_cast<uint8_t>(samples[i] >> 8));

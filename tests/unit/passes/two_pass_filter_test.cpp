@@ -86,6 +86,14 @@ TEST(TwoPassFilter, DeclaresItsNodes) {
   EXPECT_TRUE(outputs.statistics);
 }
 
+TEST(TwoPassFilter, AlphaAddsNoPass) {
+  Frame frame;
+  frame.inputs.colorHasAlpha = true;
+  frame.graph.exportImage(frame.declare().color, kShown);
+  EXPECT_EQ(frame.declaredPasses().size(), 6u);
+  EXPECT_EQ(frame.plan().passes.size(), 6u);
+}
+
 TEST(TwoPassFilter, WithoutAnApertureItDeclaresNothingAndReturnsItsInput) {
   Frame frame;
   frame.inputs.lens.cocScale = 0.0f;
