@@ -58,16 +58,19 @@ std::string joined(const ErrorParts& parts) {
   return line;
 }
 
-std::string lineOf(const ErrorParts& parts) {
-  // Long parts are cut before they are joined: a file may put megabytes into one.
-  const auto cut = [&](std::size_t limit) {
-    return joined({.file = asLine(parts.file, limit),
-                   .field = asLine(parts.field, limit),
-                   .reason = asLine(parts.reason, limit),
-                   .remedy = asLine(parts.remedy, limit)});
-  };
-  std::string line = cut(kLongestLine);
-  for (std::size_t limit = kLongestLine; line.size() > kLongestLine; limit -= 10) line = cut(limit);
+ErrorParts shortened(const ErrorParts& parts, std::size_t limit) {
+  return {.file = asLine(parts.file, limit),
+          .field = asLine(parts.field, limit),
+          .reason = asLine(parts.reason, limit),
+          .remedy = asLine(parts.remedy, limit)};
+}
+
+std::string lineOf(const ErrorParts& whole) {
+  // A file may put megabytes into one part.
+  const ErrorParts parts = shortened(whole, kLongestLine);
+  std::string line = joined(parts);
+  for (std::size_t limit = kLongestLine; line.size() > kLongestLine; limit -= 10)
+    line = joined(shortened(parts, limit));
   return asLine(line);
 }
 

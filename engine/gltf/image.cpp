@@ -5,24 +5,11 @@
 #include <span>
 #include <vector>
 
+#include "engine/gltf/image_pixels.h"
 #include "engine/gltf/image_size.h"
 #include "engine/gltf/read/uri.h"
 
 namespace lensgraph::engine::gltf {
-namespace {
-
-// Pixels of 16 bits a channel, rounded to 8.
-std::vector<uint8_t> narrowed(const std::vector<uint8_t>& wide) {
-  std::vector<uint8_t> result(wide.size() / 2);
-  for (size_t i = 0; i < result.size(); ++i) {
-    const uint32_t value = wide[2 * i] | uint32_t{wide[2 * i + 1]} << 8;
-    result[i] = static_cast<uint8_t>((value * 255 + 32767) / 65535);
-  }
-  return result;
-}
-
-}  // namespace
-
 SceneImage ImageDecoder::decode(int index) {
   const tinygltf::Image& source = document_.model.images[static_cast<size_t>(index)];
   const std::string field = at("images", static_cast<size_t>(index));
@@ -53,19 +40,12 @@ SceneImage ImageDecoder::decode(int index) {
   }
   takePixels(uint64_t{size->width} * size->height, bytes.size(), field);
 
-  tinygltf::Image decoded;
-  std::string errors, warnings;
-  if (!tinygltf::LoadImageData(&decoded, index, &errors, &warnings, static_cast<int>(size->width),
-                               static_cast<int>(size->height), bytes.data(), static_cast<int>(bytes.size()), nullptr)) {
-    document_.fail(field, damaged);
-  }
   SceneImage image;
   image.name = isNamed ? source.uri : source.name.empty() ? field : source.name;
-  image.width = static_cast<uint32_t>(decoded.width);
-  image.height = static_cast<uint32_t>(decoded.height);
-  image.rgba = decoded.bits == 16 ? narrowed(decoded.image) : std::move(decoded.image);
-  const size_t count = size_t{image.width} * image.height * 4;
-  if (image.rgba.size() != count || count == 0) document_.fail(field, name + "has an unexpected pixel format");
+  image.width = size->width;
+  image.height = size->height;
+  image.rgba = decodeRgba(bytes, *size);
+  if (image.rgba.empty()) document_.fail(field, damaged);
   return image;
 }
 

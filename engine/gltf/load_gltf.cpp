@@ -9,6 +9,7 @@
 
 #include "engine/error.h"
 #include "engine/gltf/geometry/primitive.h"
+#include "engine/gltf/geometry/skin.h"
 #include "engine/gltf/instancing.h"
 #include "engine/gltf/material.h"
 #include "engine/gltf/node_tree.h"
@@ -64,8 +65,10 @@ class Assembler {
     const tinygltf::Mesh& mesh = document_.model.meshes[static_cast<size_t>(node.mesh)];
     // A skinned mesh stands where its joints are; its node's transform does not count (glTF 2.0 §3.7.3.3).
     const glm::dmat4& worldFromNode = node.skin >= 0 ? worldFromFile_ : world;
+    const std::string name = node.name.empty() ? at("nodes", nodeIndex) : node.name;
+    const uint64_t instanceSize = sizeof(Instance) + name.size();
     const std::vector<glm::dmat4> placements =
-        gltf::meshPlacements(document_, nodeIndex, mesh.primitives.size() * sizeof(Instance));
+        gltf::meshPlacements(document_, nodeIndex, mesh.primitives.size() * instanceSize);
     gltf::PrimitiveUse use{.mesh = static_cast<size_t>(node.mesh),
                            .weights = node.weights.empty() ? mesh.weights : node.weights,
                            .skin = node.skin};
@@ -73,12 +76,11 @@ class Assembler {
       const uint32_t index = primitiveIndex(use);
       if (index == kNoIndex) continue;
       // The first primitive of a node is paid for by the node's own text.
-      if (use.primitive > 0) document_.takeMemory(sizeof(Instance), 0, at("nodes", nodeIndex, ".mesh"));
+      if (use.primitive > 0) document_.takeMemory(instanceSize, 0, at("nodes", nodeIndex, ".mesh"));
       for (const glm::dmat4& nodeFromObject : placements) {
         const glm::dmat4 worldFromObject = worldFromNode * nodeFromObject;
         if (!isFinite(worldFromObject)) document_.fail(at("nodes", nodeIndex), "its transform is too large");
         if (isHidden(worldFromObject)) continue;
-        const std::string name = node.name.empty() ? at("nodes", nodeIndex) : node.name;
         scene_.instances.push_back({.primitive = index, .worldFromObject = worldFromObject, .name = name});
       }
     }
@@ -90,12 +92,19 @@ class Assembler {
     return found != built_.end() ? found->second : built_[key] = addPrimitive(use);
   }
 
+  const std::vector<glm::dmat4>& jointsOf(int skin) {
+    std::vector<glm::dmat4>& joints = joints_[skin];
+    if (skin >= 0 && joints.empty())
+      joints = gltf::jointMatrices(document_, static_cast<size_t>(skin), tree_.fileFromNode);
+    return joints;
+  }
+
   uint32_t addPrimitive(gltf::PrimitiveUse use) {
     if (!gltf::isOfTriangles(document_, use)) return kNoIndex;
     const int material = document_.model.meshes[use.mesh].primitives[use.primitive].material;
     const uint32_t materialIndex = materials_.materialIndex(material);
     use.uvSets = materials_.uvSetsOf(material);
-    std::optional<Primitive> built = gltf::buildPrimitive(document_, use, tree_.fileFromNode);
+    std::optional<Primitive> built = gltf::buildPrimitive(document_, use, jointsOf(use.skin));
     if (!built) return kNoIndex;
     built->material = materialIndex;
     warnOfMissingUvs(*built, use);
@@ -169,6 +178,7 @@ class Assembler {
   Scene scene_;
   gltf::MaterialBuilder materials_;
   gltf::NodeTree tree_;
+  std::map<int, std::vector<glm::dmat4>> joints_;  ///< By skin; none for −1.
   /// Primitive of the scene by mesh, primitive, weights and skin; kNoIndex: nothing to draw.
   std::map<std::tuple<size_t, size_t, std::vector<double>, int>, uint32_t> built_;
 };

@@ -20,8 +20,7 @@ struct DracoMesh {
 bool isDraco(const tinygltf::Primitive& primitive);
 
 /// Decodes a primitive's stream. Its accessors say how much that is, and a stream that claims or holds something else is
-/// refused; one may stand for 256 bytes for each of its own, and for 16 MB more (flat grids shrink without end). Throws
-/// Error naming `field` and the extension.
+/// refused before it is decoded. Throws Error naming `field` and the extension.
 DracoMesh decodeDraco(Document& document, const tinygltf::Primitive& primitive, const std::string& field);
 
 }  // namespace lensgraph::engine::gltf

@@ -37,7 +37,7 @@ class PrimitiveReader {
     pickVertices();
   }
 
-  std::optional<Primitive> build(const std::vector<glm::dmat4>& fileFromNode) {
+  std::optional<Primitive> build(const std::vector<glm::dmat4>& joints) {
     if (triangles_.empty()) {
       document_.warn("primitives without triangles are not drawn", field_);
       return std::nullopt;
@@ -57,7 +57,7 @@ class PrimitiveReader {
     if (use_.skin >= 0) {
       const Influences influences{.joints = influence("JOINTS_0", kUnsigned),
                                   .weights = influence("WEIGHTS_0", kFloat | kNormalizedUnsigned)};
-      applyRestPose(document_, static_cast<size_t>(use_.skin), influences, picked(), fileFromNode, field_, result);
+      applyRestPose(document_, joints, influences, picked(), field_, result);
     }
     result.indices = std::move(triangles_);
     if (result.normals.empty()) flatten(result);
@@ -224,9 +224,9 @@ bool isOfTriangles(Document& document, const PrimitiveUse& use) {
 }
 
 std::optional<Primitive> buildPrimitive(Document& document, const PrimitiveUse& use,
-                                        const std::vector<glm::dmat4>& fileFromNode) {
+                                        const std::vector<glm::dmat4>& joints) {
   document.startPart();
-  return PrimitiveReader(document, use).build(fileFromNode);
+  return PrimitiveReader(document, use).build(joints);
 }
 
 }  // namespace lensgraph::engine::gltf

@@ -30,9 +30,9 @@ std::string fieldOf(const PrimitiveUse& use);
 bool isOfTriangles(Document& document, const PrimitiveUse& use);
 
 /// The primitive without its material, morphed and skinned; vertices that no triangle uses are left out. It has flat
-/// normals when the file gives none. None, with a warning, when it has no triangles. `fileFromNode` places the joints.
+/// normals when the file gives none. None, with a warning, when it has no triangles. `joints` are the skin's, if it has one.
 /// Precondition: isOfTriangles().
 std::optional<Primitive> buildPrimitive(Document& document, const PrimitiveUse& use,
-                                        const std::vector<glm::dmat4>& fileFromNode);
+                                        const std::vector<glm::dmat4>& joints);
 
 }  // namespace lensgraph::engine::gltf

@@ -9,25 +9,6 @@
 namespace lensgraph::engine::gltf {
 namespace {
 
-// fileFromVertex of each joint: where the joint is, times the inverse of where it was when the skin was
-// bound.
-std::vector<glm::dmat4> jointMatrices(Document& document, size_t skinIndex,
-                                      const std::vector<glm::dmat4>& fileFromNode) {
-  const tinygltf::Skin& skin = document.model.skins[skinIndex];
-  std::vector<glm::dmat4> matrices(skin.joints.size());
-  for (size_t i = 0; i < matrices.size(); ++i) matrices[i] = fileFromNode[static_cast<size_t>(skin.joints[i])];
-  if (skin.inverseBindMatrices < 0) return matrices;
-  const std::string field = at("skins", skinIndex, ".inverseBindMatrices");
-  const std::vector<float> inverses = readFloats(document, skin.inverseBindMatrices, 16, kFloat, field);
-  if (inverses.size() < matrices.size() * 16) document.fail(field, "has fewer matrices than the skin has joints");
-  for (size_t i = 0; i < matrices.size(); ++i) {
-    glm::dmat4 inverse;
-    for (size_t k = 0; k < 16; ++k) inverse[static_cast<int>(k / 4)][static_cast<int>(k % 4)] = inverses[i * 16 + k];
-    matrices[i] *= inverse;
-  }
-  return matrices;
-}
-
 std::vector<uint32_t> readJoints(Document& document, const Elements& joints, Picked picked, size_t jointCount,
                                  const std::string& field) {
   std::vector<uint32_t> result = toUnsigned(document, joints, field, picked);
@@ -53,17 +34,32 @@ void moveVertex(const glm::dmat4& fileFromVertex, size_t vertex, Primitive& targ
 
 }  // namespace
 
-void applyRestPose(Document& document, size_t skin, const Influences& influences, Picked picked,
-                   const std::vector<glm::dmat4>& fileFromNode, const std::string& field, Primitive& target) {
-  const std::vector<glm::dmat4> matrices = jointMatrices(document, skin, fileFromNode);
-  const std::vector<uint32_t> joints =
-      readJoints(document, influences.joints, picked, matrices.size(), field + ".attributes.JOINTS_0");
+std::vector<glm::dmat4> jointMatrices(Document& document, size_t index, const std::vector<glm::dmat4>& fileFromNode) {
+  const tinygltf::Skin& skin = document.model.skins[index];
+  std::vector<glm::dmat4> matrices(skin.joints.size());
+  for (size_t i = 0; i < matrices.size(); ++i) matrices[i] = fileFromNode[static_cast<size_t>(skin.joints[i])];
+  if (skin.inverseBindMatrices < 0) return matrices;
+  const std::string field = at("skins", index, ".inverseBindMatrices");
+  const std::vector<float> inverses = readFloats(document, skin.inverseBindMatrices, 16, kFloat, field);
+  if (inverses.size() < matrices.size() * 16) document.fail(field, "has fewer matrices than the skin has joints");
+  for (size_t i = 0; i < matrices.size(); ++i) {
+    glm::dmat4 inverse;
+    for (size_t k = 0; k < 16; ++k) inverse[static_cast<int>(k / 4)][static_cast<int>(k % 4)] = inverses[i * 16 + k];
+    matrices[i] *= inverse;
+  }
+  return matrices;
+}
+
+void applyRestPose(Document& document, const std::vector<glm::dmat4>& joints, const Influences& influences,
+                   Picked picked, const std::string& field, Primitive& target) {
+  const std::vector<uint32_t> numbers =
+      readJoints(document, influences.joints, picked, joints.size(), field + ".attributes.JOINTS_0");
   const std::vector<float> weights = toFloats(document, influences.weights, field + ".attributes.WEIGHTS_0", picked);
   for (size_t v = 0; v < target.positions.size(); ++v) {
     glm::dmat4 fileFromVertex(0.0);
     double total = 0.0;
     for (size_t k = 4 * v; k < 4 * v + 4; ++k) {
-      fileFromVertex += double{weights[k]} * matrices[joints[k]];
+      fileFromVertex += double{weights[k]} * joints[numbers[k]];
       total += weights[k];
     }
     // Exporters round weights; an unnormalised sum would scale the mesh.

@@ -10,14 +10,18 @@
 
 namespace lensgraph::engine::gltf {
 
+/// fileFromVertex of each joint of skins[index], in the rest pose: where the joint is, times the inverse of where it was
+/// when the skin was bound.
+std::vector<glm::dmat4> jointMatrices(Document& document, size_t index, const std::vector<glm::dmat4>& fileFromNode);
+
 /// JOINTS_0 and WEIGHTS_0 of a primitive, four for each vertex.
 struct Influences {
   Elements joints, weights;
 };
 
-/// Moves the vertices of `target`, which are those in `picked` of the file's, to where the joints' rest pose puts them, in
-/// the file's space. Throws Error naming `field`.
-void applyRestPose(Document& document, size_t skin, const Influences& influences, Picked picked,
-                   const std::vector<glm::dmat4>& fileFromNode, const std::string& field, Primitive& target);
+/// Moves the vertices of `target`, which are those in `picked` of the file's, to where the joints put them, in the file's
+/// space. Throws Error naming `field`.
+void applyRestPose(Document& document, const std::vector<glm::dmat4>& joints, const Influences& influences,
+                   Picked picked, const std::string& field, Primitive& target);
 
 }  // namespace lensgraph::engine::gltf

@@ -93,6 +93,10 @@ std::span<const uint8_t> Buffers::viewBytes(int index) {
     const auto stream = range(compression.buffer, compression.byteOffset, compression.byteLength, streamField);
     view.decoded = decodeMeshopt(source_, compression, stream, streamField);
     bytesDecoded_ += view.decoded->size();
+    // Only views that share a stream come to more.
+    if (bytesDecoded_ > kMeshoptBytesOfOne * bytesRead_)
+      source_.fail(streamField, "the file's streams decode to more than " + std::to_string(kMeshoptBytesOfOne) +
+                                    " bytes for each of its own");
   }
   // The buffer that the view names is a fallback for readers without the extension, and may hold nothing.
   if (view.byteLength > view.decoded->size()) {

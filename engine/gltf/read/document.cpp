@@ -13,6 +13,7 @@
 #include <string_view>
 #include <utility>
 
+#include "engine/error.h"
 #include "engine/gltf/read/check.h"
 #include "engine/gltf/read/container.h"
 #include "engine/gltf/read/json_text.h"
@@ -26,6 +27,9 @@ using Json = nlohmann::json;
 
 // A .glb cannot be longer.
 constexpr uint64_t kMaxFileBytes = uint64_t{1} << 32;
+
+// Bytes of the names of nodes, meshes and others.
+constexpr size_t kMaxName = 200;
 
 constexpr std::string_view kReadExtensions[] = {
     "EXT_mesh_gpu_instancing", "EXT_meshopt_compression",         "KHR_draco_mesh_compression",
@@ -97,10 +101,14 @@ void checkExtensions(const Source& source, const Json& root, Warnings& warnings)
   }
 }
 
-// Takes out what nothing reads, so that tinygltf does not parse it either.
+// Takes out what nothing reads, so that tinygltf does not parse it either, and shortens names: each instance has a copy.
 void dropUnread(Json& value) {
   if (value.is_object()) {
     value.erase("extras");
+    if (const auto name = value.find("name"); name != value.end() && name->is_string()) {
+      std::string& text = name->get_ref<std::string&>();
+      if (text.size() > kMaxName) text = asLine(text, kMaxName);
+    }
     if (const auto extensions = value.find("extensions"); extensions != value.end() && extensions->is_object()) {
       for (auto member = extensions->begin(); member != extensions->end();) {
         const bool isKnown = contains(kReadExtensions, member.key()) || contains(kTextureExtensions, member.key());
@@ -208,8 +216,14 @@ void Document::takeMemory(uint64_t loaded, uint64_t stored, const std::string& f
        "place a mesh by several nodes instead of repeating its primitives");
 }
 
-void Document::addDecoded(int bufferView, uint64_t bytes) {
-  if (decodedViews_.insert(bufferView).second) bytesDecoded_ += bytes;
+void Document::addDecoded(int bufferView, uint64_t bytes, const std::string& field) {
+  if (!decodedViews_.insert(bufferView).second) return;
+  bytesDecoded_ += bytes;
+  const uint64_t limit = kDecodedBase + kDecodedBytes * buffers.bytesRead();
+  if (bytesDecoded_ > limit) {
+    fail(field, "brings the geometry of compressed streams to " + std::to_string(bytesDecoded_) +
+                    " bytes, more than the " + std::to_string(limit) + " that a file of this size may hold");
+  }
 }
 
 Document readDocument(const fs::path& path) {

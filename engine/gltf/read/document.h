@@ -1,8 +1,6 @@
 // A glTF file, parsed and checked: what its other parts are read from. Private to engine/gltf.
 #pragma once
 
-#include <tiny_gltf.h>
-
 #include <cstdint>
 #include <filesystem>
 #include <set>
@@ -11,6 +9,7 @@
 #include "engine/gltf/read/buffers.h"
 #include "engine/gltf/read/memory_limit.h"
 #include "engine/gltf/read/source.h"
+#include "engine/gltf/read/tiny_gltf.h"
 #include "engine/gltf/read/warnings.h"
 
 namespace lensgraph::engine::gltf {
@@ -31,8 +30,11 @@ struct Document : Source {
   /// Takes memory for `loaded` bytes of scene, read from `stored` bytes of the file. To be called before they are
   /// allocated. Throws Error naming the field when the file asks for more than memory_limit.h allows.
   void takeMemory(uint64_t loaded, uint64_t stored, const std::string& field);
-  /// What a Draco stream has been decoded to counts as bytes of the file, once for each buffer view.
-  void addDecoded(int bufferView, uint64_t bytes);
+  /// What the Draco stream in a buffer view decodes to counts as bytes of the file, once for each view. All of them may
+  /// come to kDecodedBytes for each byte of the file, and kDecodedBase more (flat grids shrink without end). To be called
+  /// before decoding. Throws Error naming the field.
+  void addDecoded(int bufferView, uint64_t bytes, const std::string& field);
+  static constexpr uint64_t kDecodedBase = 8'000'000, kDecodedBytes = 256;
 
  private:
   friend Document readDocument(const std::filesystem::path& path);

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/error.h"
+
 namespace lensgraph::engine::gltf {
 namespace {
 
@@ -110,8 +112,9 @@ Json parseJson(const Source& source, std::string_view text) {
     // user.
     const std::string_view message = error.what();
     const size_t start = message.find("] ");
+    // The message quotes the token that was read last, of whatever length.
     source.fail("", "is not valid glTF JSON: " +
-                        std::string(start == std::string_view::npos ? message : message.substr(start + 2)));
+                        asLine(start == std::string_view::npos ? message : message.substr(start + 2), 240));
   }
 }
 

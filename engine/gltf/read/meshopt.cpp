@@ -6,9 +6,6 @@
 namespace lensgraph::engine::gltf {
 namespace {
 
-// The densest stream spends two bits on sixteen bytes; its tail and header only make it longer.
-constexpr uint64_t kMostBytesOfOne = 64;
-
 // The first byte of a stream: its kind in the high half, its version in the low.
 constexpr uint8_t kAttributeStream = 0xA0, kTriangleStream = 0xE0, kIndexStream = 0xD0;
 
@@ -69,7 +66,7 @@ class Decoder {
 
   // Zeros for what is to be decoded.
   std::vector<uint8_t> room() const {
-    const uint64_t limit = kMostBytesOfOne * stream_.size();
+    const uint64_t limit = kMeshoptBytesOfOne * stream_.size();
     if (view_.count > limit / view_.byteStride) {
       source_.fail(field_ + ".count", std::to_string(view_.count) + " elements of " + std::to_string(view_.byteStride) +
                                           " bytes are more than a stream of " + std::to_string(stream_.size()) +

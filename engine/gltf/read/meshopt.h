@@ -20,6 +20,9 @@ struct MeshoptView {
   std::string filter = "NONE";
 };
 
+/// The densest stream spends two bits on sixteen bytes; its header and tail only make it longer.
+inline constexpr uint64_t kMeshoptBytesOfOne = 64;
+
 /// The count · byteStride bytes that a stream stands for. Throws Error naming `field`: values that the extension does
 /// not allow, more bytes than a stream of that length can hold, a damaged stream, one of a newer version.
 std::vector<uint8_t> decodeMeshopt(const Source& source, const MeshoptView& view, std::span<const uint8_t> stream,

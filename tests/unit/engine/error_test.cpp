@@ -22,6 +22,42 @@ TEST(Error, NeverSpansTwoLines) {
   EXPECT_EQ(std::string(error.what()).find_first_of("\r\n"), std::string::npos);
 }
 
+TEST(Error, LongPartsAreShortenedInTheMiddleAndTheOthersStayWhole) {
+  const engine::Error error({.file = std::string(3000, 'f') + "/end.gltf",
+                             .field = "meshes[2]",
+                             .reason = "'" + std::string(1000000, 'r') + "' is wrong",
+                             .remedy = "mend it"});
+  const std::string line = error.what();
+  EXPECT_LE(line.size(), engine::kLongestLine);
+  EXPECT_GT(line.size(), engine::kLongestLine - 40);
+  EXPECT_NE(line.find("fff…fff"), std::string::npos) << line;
+  EXPECT_NE(line.find("/end.gltf: meshes[2]: 'rrr"), std::string::npos) << line;
+  EXPECT_NE(line.find("rrr' is wrong; mend it"), std::string::npos) << line;
+  EXPECT_EQ(error.parts().file.size(), 3009u);
+}
+
+TEST(Error, CharactersStayWholeWhereverALineIsCut) {
+  for (std::size_t limit = 0; limit < 30; ++limit) {
+    const std::string line = engine::asLine("äöü€€€𝄞𝄞𝄞aäöü€€€𝄞𝄞𝄞", limit);
+    EXPECT_LE(line.size(), limit);
+    // Removing whole characters leaves nothing.
+    std::string rest = line;
+    for (const std::string character : {"ä", "ö", "ü", "€", "𝄞", "a", "…"}) {
+      for (auto place = rest.find(character); place != std::string::npos; place = rest.find(character))
+        rest.erase(place, character.size());
+    }
+    EXPECT_EQ(rest, "") << line;
+  }
+}
+
+TEST(Error, ControlCharactersOfEveryKindBecomeBlanks) {
+  EXPECT_EQ(engine::asLine("a\x1b[31mb\x7f"
+                           "c\u009b"
+                           "d\u2028e\u202ef\u2066g\t"),
+            "a [31mb c d e f g");
+  EXPECT_EQ(engine::asLine("größer … – “x”"), "größer … – “x”");
+}
+
 }  // namespace
 
 }  // namespace lensgraph

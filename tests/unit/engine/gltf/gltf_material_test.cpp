@@ -243,7 +243,79 @@ TEST(GltfMaterial, MissingUvsAreAWarning) {
   EXPECT_THAT(warnings, ElementsAre(HasSubstr("has no TEXCOORD_0")));
 }
 
+// ---- Transmission
+
+/// Glass of a colour whose alpha does not count, as OPAQUE says.
+Json glass(double factor) {
+  return {
+      {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0.5}}}},
+      {"extensions",
+       {{"KHR_materials_transmission", {{"transmissionFactor", factor}}}, {"KHR_materials_volume", Json::object()}}}};
+}
+
+TEST(GltfTransmission, IsAlphaInLitPictures) {
+  GltfBuilder builder = fileWith(glass(0.75));
+  builder.json["extensionsRequired"] = {"KHR_materials_transmission", "KHR_materials_volume"};
+  std::vector<std::string> warnings;
+  const Material material = load(builder, &warnings).materials.at(0);
+  EXPECT_EQ(material.alphaMode, engine::AlphaMode::blend);
+  EXPECT_EQ(material.baseColorFactor, glm::vec4(1, 1, 1, 0.25f));
+  EXPECT_THAT(warnings, ElementsAre(HasSubstr("materials[0]: KHR_materials_transmission is drawn as alpha")));
+}
+
+TEST(GltfTransmission, ScalesTheAlphaOfBlendedMaterials) {
+  Json material = glass(0.5);
+  material["alphaMode"] = "BLEND";
+  EXPECT_EQ(loadOne(material).baseColorFactor.a, 0.25f);
+}
+
+TEST(GltfTransmission, LeavesALittleOfTheClearestGlass) {
+  EXPECT_EQ(loadOne(glass(1)).baseColorFactor.a, 0.08f);
+}
+
+TEST(GltfTransmission, OfNothingChangesNothing) {
+  const Material material = loadOne(glass(0));
+  EXPECT_EQ(material.alphaMode, engine::AlphaMode::opaque);
+  EXPECT_EQ(material.baseColorFactor.a, 0.5f);
+}
+
+TEST(GltfTransmission, IsIgnoredInUnlitPicturesAndByUnlitMaterials) {
+  GltfBuilder builder = fileWith(glass(1));
+  std::vector<std::string> warnings;
+  EXPECT_EQ(load(builder, &warnings, {.isLit = false}).materials.at(0).alphaMode, engine::AlphaMode::opaque);
+  EXPECT_THAT(warnings, ElementsAre(HasSubstr("KHR_materials_transmission is ignored in unlit pictures")));
+  Json unlit = glass(1);
+  unlit["extensions"]["KHR_materials_unlit"] = Json::object();
+  EXPECT_EQ(loadOne(unlit).alphaMode, engine::AlphaMode::opaque);
+}
+
 // ---- Images
+
+class TextureExtension : public testing::TestWithParam<const char*> {};
+
+TEST_P(TextureExtension, IsNamedWhenThereIsNoFallbackAndElseIgnored) {
+  for (bool hasFallback : {false, true}) {
+    GltfBuilder builder = fileWith(Json::object());
+    builder.json["extensionsUsed"] = {GetParam()};
+    addTexture(builder);
+    Json& texture = builder.json["textures"][0];
+    texture["extensions"][GetParam()]["source"] = builder.add("images", {{"uri", "missing.ktx2"}});
+    if (!hasFallback) texture.erase("source");
+    builder.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
+    try {
+      EXPECT_THAT(load(builder).images.at(0).rgba, ElementsAre(200, 100, 50, 128));
+      EXPECT_TRUE(hasFallback);
+    } catch (const engine::Error& error) {
+      EXPECT_FALSE(hasFallback);
+      EXPECT_THAT(error.what(), HasSubstr("textures[0]: has its image in " + std::string(GetParam()) +
+                                          " alone, which is not read; export with PNG or JPEG textures"));
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, TextureExtension,
+                         testing::Values("KHR_texture_basisu", "EXT_texture_webp", "EXT_texture_avif",
+                                         "MSFT_texture_dds"));
 
 std::vector<uint8_t> pixelsOf(const std::vector<uint8_t>& png) {
   GltfBuilder builder = fileWith(Json::object());
