@@ -29,7 +29,7 @@ shared::DrawConstants drawConstantsOf(const SceneViewpoint& viewpoint, const Sce
   for (int i = 0; i < 16; ++i) constants.viewFromObject.columns[i] = static_cast<float>(viewFromObject[i / 4][i % 4]);
   // A matrix that squashes a dimension has no inverse; its cofactors are the normal transform all the same.
   const glm::dmat3 m(viewFromObject);
-  constants.normalColumns[0] = toShared(glm::cross(m[1], m[2]), glm::determinant(m) < 0.0 ? 1.0 : 0.0);
+  constants.normalColumns[0] = toShared(glm::cross(m[1], m[2]), item.winding == Winding::turned ? 1.0 : 0.0);
   constants.normalColumns[1] = toShared(glm::cross(m[2], m[0]), 0.0);
   constants.normalColumns[2] = toShared(glm::cross(m[0], m[1]), 0.0);
   constants.material = item.material;

@@ -75,11 +75,15 @@ std::span<const std::byte> bytesOf(const std::vector<T>& items) {
 
 Winding windingOf(const glm::dmat4& worldFromObject) {
   constexpr double kRounding = 1e-14;
-  const glm::dmat3 m(worldFromObject);
+  // With axes of unit length, so that thin and tiny objects are not taken for flat ones.
+  glm::dmat3 m(worldFromObject);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double largest = std::max({std::abs(m[axis].x), std::abs(m[axis].y), std::abs(m[axis].z)});
+    if (largest == 0.0) return Winding::lost;
+    m[axis] = glm::normalize(m[axis] / largest);  // Squares of the components themselves could overflow or vanish.
+  }
   const double determinant = glm::determinant(m);
-  // Relative to the axes' lengths, so that thin objects are not taken for flat ones.
-  const double lengths = glm::length(m[0]) * glm::length(m[1]) * glm::length(m[2]);
-  if (!(std::abs(determinant) > kRounding * lengths)) return Winding::lost;
+  if (!(std::abs(determinant) > kRounding)) return Winding::lost;
   return determinant < 0.0 ? Winding::turned : Winding::kept;
 }
 

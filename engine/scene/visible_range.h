@@ -28,8 +28,8 @@ struct LensOpening {
   double focusVergence = 0.0;  ///< 1/m; the focal plane stays where it is in the picture from every lens point.
 };
 
-/// Exact: every triangle is clipped to what any point of the opening sees (hidden surfaces count; lens rays may reach
-/// them). `metersPerUnit` scales the scene.
+/// Exact: every triangle is clipped to what any point of the opening sees (hidden surfaces count, and back faces that
+/// are not drawn; lens rays may reach the former). `metersPerUnit` scales the scene.
 VisibleRange visibleRange(const Scene& scene, const Camera& camera, uint32_t width, uint32_t height,
                           const LensOpening& opening, double metersPerUnit);
 

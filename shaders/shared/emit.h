@@ -8,7 +8,8 @@
 SHARED_NAMESPACE_BEGIN
 
 #ifdef __cplusplus
-/// Which surfaces a draw covers and what their fragments do.
+/// Which surfaces a draw covers and what their fragments do. Whether a surface has a back face is the host's business, as its
+/// material is.
 enum class SceneEmit : uint32_t {
   /// Opaque and alpha-masked surfaces. Colour attachment 0: linear radiance, alpha 1. Depth attachment: tested
   /// (greater) and written.
