@@ -1,5 +1,5 @@
 // Reads Radiance HDR files: see picture_file.h. The header is checked here; OpenImageIO reads the pixels.
-#include <array>
+#include <algorithm>
 #include <charconv>
 #include <string>
 #include <string_view>

@@ -4,11 +4,11 @@
 // skips the rest unread, whatever it holds, and says nothing by itself.
 #include <png.h>
 
-#include <algorithm>
 #include <array>
 #include <csetjmp>
 #include <cstdint>
 #include <cstring>
+#include <new>
 #include <string>
 #include <string_view>
 

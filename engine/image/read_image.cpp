@@ -1,7 +1,9 @@
 // Reads pictures: what image_io.h says, joined from the formats' readers and the choice of channels.
-#include <algorithm>
 #include <array>
+#include <limits>
+#include <memory>
 #include <new>
+#include <span>
 #include <string>
 #include <vector>
 

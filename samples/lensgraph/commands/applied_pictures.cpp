@@ -5,7 +5,7 @@
 #include <spdlog/spdlog.h>
 
 #include <cmath>
-#include <limits>
+#include <utility>
 
 #include "engine/error.h"
 #include "engine/image/image_io.h"
