@@ -2,7 +2,10 @@
 // are (skipped where their folder is absent: they are not part of this project).
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <fstream>
+#include <functional>
+#include <utility>
 
 #include "engine/image/image.h"
 #include "engine/image/image_io.h"
