@@ -251,7 +251,8 @@ TEST(GltfLimits, LinesStayShortWhateverTheFileSays) {
     return loaded.error + (loaded.warnings.empty() ? "" : loaded.warnings[0]);
   };
   EXPECT_THAT(lineOf("{\"extras\": \"" + longText + "\x01\"}"),
-              HasSubstr("is not valid glTF JSON: parse error at line 1"));
+              AllOf(HasSubstr("is not valid glTF JSON: parse error at line 1"), HasSubstr("must be escaped to \\u0001"),
+                    HasSubstr("; last read: '\"xxx"), EndsWith("xxx<U+0001>'")));
   EXPECT_THAT(lineOf("{\"asset\":{\"version\":\"2.0\"},\"extensionsUsed\":[\"" + longText + "\"]}"),
               AllOf(StartsWith("extension xxx"), HasSubstr("…"), EndsWith("xxx is ignored")));
   EXPECT_THAT(lineOf("{\"asset\":{\"version\":\"2.0\"},\"extensionsRequired\":[\"" + longText + "\"]}"),
