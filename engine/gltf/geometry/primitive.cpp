@@ -166,13 +166,33 @@ class PrimitiveReader {
 
   // Many primitives may share one long accessor and use a few of its vertices each.
   void pickVertices() {
-    isPicked_ = triangles_.size() < count_;
-    if (!isPicked_) return;
-    picked_ = triangles_;
-    std::sort(picked_.begin(), picked_.end());
-    picked_.erase(std::unique(picked_.begin(), picked_.end()), picked_.end());
+    picked_ = triangles_.size() < count_ ? sortedVertices() : markedVertices();
+    isPicked_ = picked_.size() < count_;
+    if (!isPicked_) {
+      picked_ = {};
+      return;
+    }
     for (uint32_t& vertex : triangles_)
       vertex = static_cast<uint32_t>(std::lower_bound(picked_.begin(), picked_.end(), vertex) - picked_.begin());
+  }
+
+  // The vertices that the triangles use, in time that depends on the triangles alone.
+  std::vector<uint32_t> sortedVertices() const {
+    std::vector<uint32_t> vertices = triangles_;
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    return vertices;
+  }
+
+  // The same where they may well be all.
+  std::vector<uint32_t> markedVertices() const {
+    std::vector<bool> isUsed(count_);
+    for (uint32_t vertex : triangles_) isUsed[vertex] = true;
+    std::vector<uint32_t> vertices;
+    for (uint32_t vertex = 0; vertex < count_; ++vertex) {
+      if (isUsed[vertex]) vertices.push_back(vertex);
+    }
+    return vertices;
   }
 
   void normalise(std::vector<glm::vec3>& normals) const {

@@ -1,6 +1,7 @@
 // Parses JSON with the care that files of strangers need.
 #include "engine/gltf/read/json_text.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -112,9 +113,10 @@ Json parseJson(const Source& source, std::string_view text) {
     // user.
     const std::string_view message = error.what();
     const size_t start = message.find("] ");
-    // The message quotes the token that was read last, of whatever length.
-    source.fail("", "is not valid glTF JSON: " +
-                        asLine(start == std::string_view::npos ? message : message.substr(start + 2), 240));
+    const std::string text(start == std::string_view::npos ? message : message.substr(start + 2));
+    // The message may end with the token that was read last, of whatever length.
+    const size_t token = std::min(text.find("; last read: "), text.size());
+    source.fail("", "is not valid glTF JSON: " + asLine(text.substr(0, token), 200) + asLine(text.substr(token), 80));
   }
 }
 

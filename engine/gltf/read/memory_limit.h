@@ -15,7 +15,7 @@ class MemoryLimit {
   /// (8-bit positions, strips, no normals).
   static constexpr uint64_t kFreeBytes = 24;
   /// Memory for what is repeated: this, and kRepeatedBytes for each byte of the file.
-  static constexpr uint64_t kBase = 24'000'000;
+  static constexpr uint64_t kBase = 12'000'000;
   static constexpr uint64_t kRepeatedBytes = 6;
 
   /// A new part of the scene begins: what the last one was given and did not take is gone.

@@ -108,7 +108,7 @@ TEST(GltfLimits, AccessorsOfZerosCountTogether) {
   builder.addNode({{"mesh", mesh}});
   EXPECT_LT(memoryOf([&] {
               EXPECT_THAT(load(builder).error, HasSubstr("asks for more geometry than the file holds: what is repeated "
-                                                         "or all zeros may take 24 MB"));
+                                                         "or all zeros may take 12 MB"));
             }),
             200 * kMegabyte);
 }
@@ -162,6 +162,20 @@ TEST(GltfLimits, PrimitivesOfFewVerticesOfALongAccessorKeepOnlyThose) {
   EXPECT_EQ(last.positions.size(), 3u);
   EXPECT_THAT(cornersOf(last),
               ElementsAre(glm::vec3(3018, 3019, 3020), glm::vec3(2997, 2998, 2999), glm::vec3(272997, 272998, 272999)));
+}
+
+TEST(GltfLimits, VerticesThatNoTriangleUsesAreLeftOut) {
+  GltfBuilder builder;
+  const int positions = builder.addAccessor(std::vector<float>{9, 9, 9, 0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3");
+  const int normals = builder.addAccessor(std::vector<float>{9, 9, 9, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
+  const int indices = builder.addAccessor(std::vector<uint8_t>{3, 1, 2, 1, 2, 3}, "SCALAR");
+  builder.addMesh({{"attributes", {{"POSITION", positions}, {"NORMAL", normals}}}, {"indices", indices}});
+  const Loaded loaded = load(builder);
+  const engine::Primitive& primitive = loaded.scene.primitives.at(0);
+  EXPECT_THAT(primitive.positions, ElementsAre(glm::vec3(0), glm::vec3(1, 0, 0), glm::vec3(0, 1, 0)));
+  EXPECT_THAT(primitive.normals, testing::Each(glm::vec3(0, 0, 1)));
+  EXPECT_THAT(primitive.indices, ElementsAre(2, 0, 1, 0, 1, 2));
+  EXPECT_EQ(primitive.bounds.max.x, 1.0);
 }
 
 TEST(GltfLimits, MeshesThatNodesPlaceAreNoRepetition) {
@@ -237,7 +251,8 @@ TEST(GltfLimits, LinesStayShortWhateverTheFileSays) {
     return loaded.error + (loaded.warnings.empty() ? "" : loaded.warnings[0]);
   };
   EXPECT_THAT(lineOf("{\"extras\": \"" + longText + "\x01\"}"),
-              HasSubstr("is not valid glTF JSON: parse error at line 1"));
+              AllOf(HasSubstr("is not valid glTF JSON: parse error at line 1"), HasSubstr("must be escaped to \\u0001"),
+                    HasSubstr("; last read: '\"xxx"), EndsWith("xxx<U+0001>'")));
   EXPECT_THAT(lineOf("{\"asset\":{\"version\":\"2.0\"},\"extensionsUsed\":[\"" + longText + "\"]}"),
               AllOf(StartsWith("extension xxx"), HasSubstr("…"), EndsWith("xxx is ignored")));
   EXPECT_THAT(lineOf("{\"asset\":{\"version\":\"2.0\"},\"extensionsRequired\":[\"" + longText + "\"]}"),
