@@ -180,9 +180,9 @@ UvSets MaterialBuilder::placeUvSets(size_t index, Material& material) {
                    at("materials", index));
     sets.resize(placed.size());
   }
-  std::copy(sets.begin(), sets.end(), placed.begin());
+  placed[0] = sets[0];
   // With one set the second slot holds nothing that is used.
-  if (sets.size() == 1) placed[1] = placed[0] == 0 ? 1 : 0;
+  placed[1] = sets.size() > 1 ? sets[1] : placed[0] == 0 ? 1 : 0;
   for (TextureUse* use : textureUsesOf(material)) {
     if (!use->isUsed()) continue;
     const auto slot = std::find(sets.begin(), sets.end(), use->uvSet);

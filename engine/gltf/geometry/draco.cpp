@@ -3,9 +3,9 @@
 
 #include <draco/compression/decode.h>
 
+#include <algorithm>
 #include <cstring>
 #include <memory>
-#include <optional>
 #include <string_view>
 
 #include "engine/error.h"
@@ -153,27 +153,27 @@ class StreamDecoder {
            ", only 2.2 is allowed");
     }
     if (header[7] != kMesh || header[8] > kEdgebreaker) fail("its stream holds no mesh");
-    std::vector<uint8_t> checked(header.begin(), header.end());
-    if ((header[10] & kHasMetadata) != 0) {
-      checked[10] &= static_cast<uint8_t>(~kHasMetadata);
-      skipMetadata(reader);
-    }
-    checked.insert(checked.end(), reader.rest().begin(), reader.rest().end());
+    const bool hasMetadata = (header[10] & kHasMetadata) != 0;
+    if (hasMetadata) skipMetadata(reader);
+    const auto body = reader.rest();
+    std::vector<uint8_t> checked(header.size() + body.size());
+    std::copy(body.begin(), body.end(), std::copy(header.begin(), header.end(), checked.begin()));
+    if (hasMetadata) checked[10] &= static_cast<uint8_t>(~kHasMetadata);
 
-    if (header[8] == kEdgebreaker) {
+    const bool isSequential = header[8] == kSequential;
+    if (!isSequential) {
       reader.byte();            // how the surface is walked
       reader.variableLength();  // vertices before seams split them
     }
     const uint64_t triangles = reader.variableLength();
-    const std::optional<uint64_t> vertices =
-        header[8] == kSequential ? std::optional(reader.variableLength()) : std::nullopt;
+    const uint64_t vertices = isSequential ? reader.variableLength() : 0;
     if (reader.isPastEnd()) fail("its stream is damaged");
     if (triangles * 3 != indexCount()) {
       fail("its stream holds " + std::to_string(triangles) + " triangles, the primitive's accessor promises " +
            std::to_string(indexCount()) + " indices");
     }
     const auto position = primitive_.attributes.find("POSITION");
-    if (vertices && position != primitive_.attributes.end()) requireVertices(*vertices, position->second);
+    if (isSequential && position != primitive_.attributes.end()) requireVertices(vertices, position->second);
     return checked;
   }
 

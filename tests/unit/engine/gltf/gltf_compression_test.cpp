@@ -170,7 +170,7 @@ TEST_P(Draco, DamagedStreamsAreErrors) {
   for (int run = 0; run < 600; ++run) {
     DracoStream damaged = good;
     if (run % 3 == 0) {
-      damaged.bytes.resize(random() % damaged.bytes.size());
+      damaged.bytes.resize(1 + random() % (damaged.bytes.size() - 1));
     } else {
       for (int k = run % 3; k > 0; --k) damaged.bytes[random() % damaged.bytes.size()] = static_cast<uint8_t>(random());
     }
