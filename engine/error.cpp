@@ -86,12 +86,4 @@ Error::Error(ErrorParts parts, ErrorKind kind)
 Error::Error(const std::string& reason, ErrorKind kind)
     : Error(ErrorParts{.file = {}, .field = {}, .reason = reason, .remedy = {}}, kind) {}
 
-std::string shortened(std::string_view text, std::size_t bytes) {
-  constexpr std::string_view kEllipsis = "…";
-  if (text.size() <= bytes) return std::string(text);
-  std::size_t end = bytes - kEllipsis.size();
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0u) == 0x80u) --end;
-  return std::string(text.substr(0, end)).append(kEllipsis);
-}
-
 }  // namespace lensgraph::engine

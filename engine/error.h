@@ -45,8 +45,4 @@ class Error : public std::runtime_error {
   ErrorKind kind_;
 };
 
-/// A text of a file for a message: whole when it has at most `bytes` bytes, else its beginning and an ellipsis, together no
-/// longer. UTF-8 characters stay whole. Precondition: bytes is 8 or more.
-std::string shortened(std::string_view text, std::size_t bytes);
-
 }  // namespace lensgraph::engine

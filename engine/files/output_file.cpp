@@ -112,6 +112,14 @@ int writeAll(int descriptor, std::span<const std::byte> bytes) {
 
 }  // namespace
 
+fs::path writtenPath(const fs::path& destination) {
+  if (destination.empty()) return {};
+  const fs::path target = behindLinks(destination, {});
+  std::error_code code;
+  const fs::path folder = fs::weakly_canonical(folderOf(target), code);
+  return code ? target.lexically_normal() : folder / target.filename();
+}
+
 void requireWritable(const fs::path& destination, const std::string& field) {
   const Place place = requirePlace(destination, field);
   if (place.isStraight) return;

@@ -21,6 +21,10 @@ namespace lensgraph::engine {
 /// no files, a name that is too long. Failed: a full disk, no file descriptors left.
 void requireWritable(const std::filesystem::path& destination, const std::string& field = {});
 
+/// The file that an OutputFile at this path writes: symbolic links followed, even where they lead to nothing yet, and the
+/// folder made canonical as far as it exists. Empty for an empty path. Throws Error for a circle of links.
+std::filesystem::path writtenPath(const std::filesystem::path& destination);
+
 /// One file being written. Symbolic links are followed: what they point to is replaced, the link stays. A file that
 /// is replaced hands on its permissions. What is no regular file (a FIFO, /dev/stdout, a device) is kept in memory and
 /// written straight by place().

@@ -29,7 +29,7 @@ std::string fieldOf(const CameraChoice& choice) {
 /// "2 'Ortho'", or "2" when it has no name.
 std::string shown(const Scene& scene, std::size_t index) {
   const std::string& name = scene.cameras[index].name;
-  return std::to_string(index) + (name.empty() ? "" : " '" + shortened(name, kNameLength) + "'");
+  return std::to_string(index) + (name.empty() ? "" : " '" + asLine(name, kNameLength) + "'");
 }
 
 /// "0 'A', 1 'B' (orthographic) and 12 more".
@@ -71,7 +71,7 @@ std::size_t indexOfName(const Scene& scene, const CameraChoice& choice, const st
   if (const SceneCamera* found = findCamera(scene, name)) return static_cast<std::size_t>(found - scene.cameras.data());
   const auto index = numberIn(name);
   if (index && *index < scene.cameras.size()) return *index;
-  failUnknown(scene, choice, "'" + shortened(name, kNameLength) + "'");
+  failUnknown(scene, choice, "'" + asLine(name, kNameLength) + "'");
 }
 
 std::size_t indexOf(const Scene& scene, const CameraChoice& choice) {

@@ -191,7 +191,7 @@ void Device::choose(const std::string& select) {
     }
   }
   if (physical_ != VK_NULL_HANDLE) return;
-  if (devices.empty()) throwDeviceError("no Vulkan device found", "install the package mesa-vulkan-drivers");
+  if (devices.empty()) throwNoDevice();
   if (!refused.empty())
     throwDeviceError("no usable Vulkan device: " + refused, "update the driver, or use another device");
   throw Error({.file = {},  // bad input, not a failure: the name is the user's

@@ -51,6 +51,10 @@ void check(VkResult result, std::string_view what) {
   if (result != VK_SUCCESS) throw VulkanError(what, result);
 }
 
+void throwNoDevice() {
+  throwDeviceError("no Vulkan device found", "install the package mesa-vulkan-drivers");
+}
+
 void throwDeviceError(std::string reason, std::string remedy) {
   throw Error(ErrorParts{.file = {}, .field = {}, .reason = std::move(reason), .remedy = std::move(remedy)},
               ErrorKind::failed);

@@ -31,6 +31,8 @@ std::string_view nameOf(VkResult result);
 
 /// Throws engine::Error (kind failed) with a reason and a remedy.
 [[noreturn]] void throwDeviceError(std::string reason, std::string remedy);
+/// There is no driver, or none that has a device.
+[[noreturn]] void throwNoDevice();
 
 /// Owns one device object; moves, never copies. The device outlives it.
 template <class Object>

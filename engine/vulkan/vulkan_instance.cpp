@@ -92,7 +92,10 @@ void VulkanInstance::create(bool validation) {
     info.enabledLayerCount = 1;
     info.ppEnabledLayerNames = &kValidationLayer;
   }
-  check(loader_->vkCreateInstance(&info, nullptr, &instance_), "vkCreateInstance");
+  const VkResult made = loader_->vkCreateInstance(&info, nullptr, &instance_);
+  // The loader's word for a machine without drivers.
+  if (made == VK_ERROR_INCOMPATIBLE_DRIVER) throwNoDevice();
+  check(made, "vkCreateInstance");
   functions_ = std::make_unique<const InstanceFunctions>(instanceFunctions(*loader_, instance_));
   if (validation) {
     check(functions_->vkCreateDebugUtilsMessengerEXT(instance_, &messenger, nullptr, &messenger_),

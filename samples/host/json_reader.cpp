@@ -2,6 +2,7 @@
 #include "samples/host/json_reader.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -17,19 +18,12 @@ using nlohmann::json;
 
 namespace {
 
-// An error line has at most 500 bytes unless the file's name alone is that long; what it quotes of a file may be longer.
-constexpr std::size_t kLineLength = 470;  // Of the parts: what the program puts before and between them is short.
-constexpr std::size_t kFieldLength = 100, kReasonLength = 200, kLeastRemedy = 40;
+/// More than any shot, configuration or capture needs; a device such as /dev/zero never ends.
+constexpr std::size_t kMostBytes = std::size_t{256} << 20;
 
 [[noreturn]] void failFile(const std::string& file, const std::string& field, const std::string& reason,
                            const std::string& remedy) {
-  engine::ErrorParts parts{.file = file,
-                           .field = engine::shortened(field, kFieldLength),
-                           .reason = engine::shortened(reason, kReasonLength),
-                           .remedy = {}};
-  const std::size_t used = parts.file.size() + parts.field.size() + parts.reason.size();
-  parts.remedy = engine::shortened(remedy, std::max(kLeastRemedy, kLineLength - std::min(kLineLength, used)));
-  throw engine::Error(std::move(parts));
+  throw engine::Error({.file = file, .field = field, .reason = reason, .remedy = remedy});
 }
 
 std::string readText(const std::filesystem::path& file) {
@@ -40,7 +34,13 @@ std::string readText(const std::filesystem::path& file) {
   if (std::filesystem::is_directory(status)) failFile(name, "", "is a folder", "name a JSON file");
   std::ifstream stream(file, std::ios::binary);
   if (!stream) failFile(name, "", "cannot be opened", "check its permissions");
-  std::string text{std::istreambuf_iterator<char>(stream), {}};
+  std::string text;
+  // Pieces, not the file's size: pipes and standard input have none.
+  for (std::array<char, 65536> piece; stream && text.size() <= kMostBytes;) {
+    stream.read(piece.data(), piece.size());
+    text.append(piece.data(), static_cast<std::size_t>(stream.gcount()));
+  }
+  if (text.size() > kMostBytes) failFile(name, "", "is larger than 256 MiB", "check the path");
   if (stream.bad()) failFile(name, "", "cannot be read", "");
   if (text.empty()) failFile(name, "", "is empty", "write a JSON object");
   return text;

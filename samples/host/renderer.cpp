@@ -201,7 +201,7 @@ Rendering Renderer::render(const Shot& shot, const RenderOptions& options) {
                           [&] { return state_->declareTechnique(graph, now, technique, options.wantDepth); });
       });
       if (options.fixedRoom || !lacksRoom(rendering.statistics)) {
-        rendering.warnings = state_->warningsOf(shot, technique.entry, options.parameters, rendering.statistics);
+        rendering.warnings = state_->warningsOf(shot, technique.entry, options.parameters, rendering);
         return rendering;
       }
       makeRoom(rendering.statistics, pixels, state_->sceneDraw);
@@ -217,15 +217,19 @@ Rendering Renderer::render(const Shot& shot, const RenderOptions& options) {
 
 std::vector<std::string> RendererState::warningsOf(const Shot& shot, const passes::Technique& technique,
                                                    const passes::ParameterSet& parameters,
-                                                   const shared::FrameStatistics& statistics) const {
+                                                   const Rendering& rendering) const {
   std::vector<std::string> warnings;
   const auto add = [&](const std::optional<std::string>& warning) {
     if (warning) warnings.push_back(*warning);
   };
   add(ignoredLensWarning(shot.lens, technique));
-  if (nothingIsVisible) add(invisibleSceneWarning(*scene, shotCamera(shot, *scene), shot.lens.metersPerUnit));
+  if (nothingIsVisible) {
+    add(invisibleSceneWarning(*scene, shotCamera(shot, *scene), shot.lens.metersPerUnit));
+  } else if (shot.faces == engine::DrawnFaces::material) {
+    add(backFacesWarning(rendering.color, shot.background, *scene));
+  }
   if (shot.shading == Shading::lit) add(unlitSceneWarning(*scene, hasEnvironment));
-  add(limitedBlurWarning(statistics.clampedCoc, shot.lens, technique, parameters, shot.height));
+  add(limitedBlurWarning(rendering.statistics.clampedCoc, shot.lens, technique, parameters, shot.height));
   return warnings;
 }
 

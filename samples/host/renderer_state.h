@@ -48,8 +48,7 @@ struct RendererState {
   Rendering run(const ChosenTechnique& technique, const passes::DofInputs& inputs, const RenderOptions& options,
                 const DeclareFrame& declareFrame);
   std::vector<std::string> warningsOf(const Shot& shot, const passes::Technique& technique,
-                                      const passes::ParameterSet& parameters,
-                                      const shared::FrameStatistics& statistics) const;
+                                      const passes::ParameterSet& parameters, const Rendering& rendering) const;
   ReadBacks declareReadBacks(rendergraph::Graph& graph, const FrameOutputs& frame, bool isLast, bool wantDepth);
   FrameOutputs declareTechnique(rendergraph::Graph& graph, passes::DofInputs inputs, const ChosenTechnique& technique,
                                 bool wantDepth);

@@ -78,9 +78,23 @@ std::string invisibleSceneWarning(const engine::Scene& scene, const engine::Came
   if (range.farthest <= camera.nearPlane) {
     return "nothing is beyond the near plane of " + text(camera.nearPlane) + " m: the scene ends at " +
            text(range.farthest) + " m; set camera.near to " +
-           text(std::max(range.nearest, range.farthest * 0.1) * 0.5) + ", for example";
+           text(std::max(range.nearest, range.farthest * 0.1) * 0.5) +
+           ", for example; the picture is the background alone";
   }
   return "nothing of the scene is in the picture, only the background: check the camera";
+}
+
+std::optional<std::string> backFacesWarning(const engine::FloatImage& color, const std::array<float, 3>& background,
+                                            const engine::Scene& scene) {
+  if (std::ranges::all_of(scene.materials, &engine::Material::doubleSided)) return std::nullopt;
+  for (std::size_t i = 0; i < color.pixelCount(); ++i) {
+    if (!std::equal(background.begin(), background.end(), color.samples.data() + i * color.channels)) {
+      return std::nullopt;
+    }
+  }
+  return "the picture is the background alone: what is in view is seen from behind, perhaps; with faces \"both\" back "
+         "faces "
+         "of single-sided materials are drawn too";
 }
 
 std::optional<std::string> unlitSceneWarning(const engine::Scene& scene, bool hasEnvironment) {

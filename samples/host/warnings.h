@@ -2,6 +2,7 @@
 // names the field or option to change.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +23,10 @@ std::optional<std::string> ignoredLensWarning(const passes::Lens& lens, const pa
 /// Why nothing of a scene is in the picture: all of it before the near plane, behind the camera, or aside. To be asked
 /// when nothing is visible.
 std::string invisibleSceneWarning(const engine::Scene& scene, const engine::Camera& camera, double metersPerUnit);
+
+/// A picture of the background alone, though something is in view whose back faces are not drawn.
+std::optional<std::string> backFacesWarning(const engine::FloatImage& color, const std::array<float, 3>& background,
+                                            const engine::Scene& scene);
 
 /// A scene that is to be lit, but has no light, glows nowhere and stands in no environment.
 std::optional<std::string> unlitSceneWarning(const engine::Scene& scene, bool hasEnvironment);

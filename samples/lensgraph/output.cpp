@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <iostream>
+#include <vector>
 
 #include "engine/error.h"
 #include "engine/files/output_file.h"
@@ -43,9 +44,17 @@ void checkOutput(const path& file, std::string_view option, std::span<const std:
 }
 
 void requireDistinct(std::span<const OutputFile> files) {
+  std::vector<path> places;
+  for (const OutputFile& file : files) {
+    places.push_back(engine::writtenPath(file.file));
+    // What is written straight may be given twice, as /dev/null is.
+    std::error_code code;
+    const auto status = std::filesystem::status(file.file, code);
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) places.back().clear();
+  }
   for (std::size_t i = 0; i < files.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      if (files[i].file.empty() || files[i].file.lexically_normal() != files[j].file.lexically_normal()) continue;
+      if (places[i].empty() || places[i] != places[j]) continue;
       throw engine::Error({.file = files[i].file.string(),
                            .field = files[j].option,
                            .reason = "is the same file as " + files[i].option,

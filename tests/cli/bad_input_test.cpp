@@ -216,6 +216,10 @@ TEST_F(BadInput, AnUnknownPictureFormatIsRefused) {
   expectRefused({"render", "shot.json", "-o", "out"}, {"out", "extension"});
 }
 
+TEST_F(BadInput, AShotThatNeverEndsIsRefused) {
+  expectRefused({"render", "/dev/zero", "-o", "out.exr"}, {"/dev/zero", "larger than 256 MiB"});
+}
+
 // ---- Usage
 
 TEST_F(BadInput, BadUsageIsRefusedWithAdvice) {
@@ -232,6 +236,14 @@ TEST_F(BadInput, BadUsageIsRefusedWithAdvice) {
 TEST_F(BadInput, AnUnknownDeviceIsRefused) {
   expectRefused({"render", "shot.json", "--device", "no such device", "-o", "out.exr"}, {"no such device"});
   expectRefused({"render", "shot.json", "--device", "99", "-o", "out.exr"}, {"99"});
+}
+
+TEST_F(BadInput, AMachineWithoutADriverIsToldWhatToInstall) {
+  const auto outcome = run({"render", "shot.json", "-o", "out.exr"}, [] {
+    return setenv("VK_DRIVER_FILES", "/nonexistent", 1) == 0 && setenv("VK_ICD_FILENAMES", "/nonexistent", 1) == 0;
+  });
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_EQ(outcome.err, "lensgraph: error: no Vulkan device found; install the package mesa-vulkan-drivers\n");
 }
 
 TEST_F(BadInput, APictureThatTheDeviceCannotHoldIsRefusedWithTheSizeThatFits) {

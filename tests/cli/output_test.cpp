@@ -116,6 +116,13 @@ TEST_F(Output, ALinkStaysALink) {
   EXPECT_TRUE(std::filesystem::is_regular_file(folder() / "real.png"));
 }
 
+TEST_F(Output, TwoOutputsThatAreOneFileAreRefused) {
+  std::filesystem::create_symlink("a.exr", folder() / "b.exr");
+  expectError({"render", "shot.json", "-o", "a.exr", "--depth-out", "b.exr"}, 2, {"is the same file as"});
+  write("a.exr", "before");
+  expectError({"render", "shot.json", "-o", "a.exr", "--depth-out", "./b.exr"}, 2, {"is the same file as"});
+}
+
 TEST_F(Output, ANameThatIsNoUtf8GoesIntoACapture) {
   const std::string name = "quad\xff.gltf";
   std::filesystem::rename(folder() / "quad.gltf", folder() / name);

@@ -63,6 +63,16 @@ TEST(InvisibleSceneWarning, SaysWhy) {
   EXPECT_THAT(invisibleSceneWarning(sceneAt(5.0f), camera, 1.0), HasSubstr("check the camera"));
 }
 
+TEST(BackFacesWarning, ComesForAPictureOfTheBackgroundAlone) {
+  engine::Scene scene = sceneAt(1.0f);
+  engine::FloatImage picture(4, 4, 4, 0.5f);
+  const std::array background = {0.5f, 0.5f, 0.5f};
+  EXPECT_THAT(backFacesWarning(picture, background, scene), Optional(HasSubstr("seen from behind")));
+  EXPECT_FALSE(backFacesWarning(picture, {0.5f, 0.5f, 0.0f}, scene));
+  scene.materials[0].doubleSided = true;
+  EXPECT_FALSE(backFacesWarning(picture, background, scene));
+}
+
 TEST(UnlitSceneWarning, ComesOnlyWhereEverythingIsBlack) {
   engine::Scene scene = sceneAt(1.0f);
   EXPECT_THAT(unlitSceneWarning(scene, false), Optional(HasSubstr("no lights")));
