@@ -54,12 +54,12 @@ class PrimitiveReader {
     warnOfIgnored();
     applyMorphTargets(document_, source_, use_.weights, count_, picked(), field_, result);
     normalise(result.normals);
+    result.indices = std::move(triangles_);
     if (use_.skin >= 0) {
       const Influences influences{.joints = influence("JOINTS_0", kUnsigned),
                                   .weights = influence("WEIGHTS_0", kFloat | kNormalizedUnsigned)};
       applyRestPose(document_, joints, influences, picked(), field_, result);
     }
-    result.indices = std::move(triangles_);
     if (result.normals.empty()) flatten(result);
     for (const glm::vec3& position : result.positions) result.bounds.add(glm::dvec3(position));
     return result;

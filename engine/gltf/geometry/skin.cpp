@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
+#include <utility>
 
 namespace lensgraph::engine::gltf {
 namespace {
@@ -18,17 +19,29 @@ std::vector<uint32_t> readJoints(Document& document, const Elements& joints, Pic
   return result;
 }
 
-void moveVertex(const glm::dmat4& fileFromVertex, size_t vertex, Primitive& target) {
+/// Returns whether the matrix mirrors.
+bool moveVertex(const glm::dmat4& fileFromVertex, size_t vertex, Primitive& target) {
   target.positions[vertex] = glm::vec3(fileFromVertex * glm::dvec4(target.positions[vertex], 1.0));
   const glm::dmat3 rotation(fileFromVertex);
+  const double determinant = glm::determinant(rotation);
   if (!target.tangents.empty()) {
     const glm::dvec3 tangent = rotation * glm::dvec3(target.tangents[vertex]);
-    if (glm::length(tangent) > 0.0)
-      target.tangents[vertex] = glm::vec4(glm::vec3(glm::normalize(tangent)), target.tangents[vertex].w);
+    const float side = target.tangents[vertex].w * (determinant < 0.0 ? -1.0f : 1.0f);
+    if (glm::length(tangent) > 0.0) target.tangents[vertex] = glm::vec4(glm::vec3(glm::normalize(tangent)), side);
   }
-  if (!target.normals.empty() && std::fabs(glm::determinant(rotation)) > 0.0) {
+  if (!target.normals.empty() && std::fabs(determinant) > 0.0) {
     target.normals[vertex] =
         glm::vec3(glm::normalize(glm::transpose(glm::inverse(rotation)) * glm::dvec3(target.normals[vertex])));
+  }
+  return determinant < 0.0;
+}
+
+// An instance's mirroring matrix turns the winding; here the vertices hold it, so the triangles are turned back.
+void turnMirroredTriangles(const std::vector<bool>& isMirrored, Primitive& target) {
+  for (size_t i = 0; i + 2 < target.indices.size(); i += 3) {
+    uint32_t* corners = target.indices.data() + i;
+    const int mirrored = isMirrored[corners[0]] + isMirrored[corners[1]] + isMirrored[corners[2]];
+    if (mirrored >= 2) std::swap(corners[1], corners[2]);
   }
 }
 
@@ -55,6 +68,7 @@ void applyRestPose(Document& document, const std::vector<glm::dmat4>& joints, co
   const std::vector<uint32_t> numbers =
       readJoints(document, influences.joints, picked, joints.size(), field + ".attributes.JOINTS_0");
   const std::vector<float> weights = toFloats(document, influences.weights, field + ".attributes.WEIGHTS_0", picked);
+  std::vector<bool> isMirrored(target.positions.size());
   for (size_t v = 0; v < target.positions.size(); ++v) {
     glm::dmat4 fileFromVertex(0.0);
     double total = 0.0;
@@ -64,10 +78,11 @@ void applyRestPose(Document& document, const std::vector<glm::dmat4>& joints, co
     }
     // Exporters round weights; an unnormalised sum would scale the mesh.
     fileFromVertex = total > 0.0 ? fileFromVertex / total : glm::dmat4(1.0);
-    moveVertex(fileFromVertex, v, target);
+    isMirrored[v] = moveVertex(fileFromVertex, v, target);
     if (!std::isfinite(glm::length(glm::dvec3(target.positions[v]))))
       document.fail(field, "is skinned out of the world");
   }
+  turnMirroredTriangles(isMirrored, target);
 }
 
 }  // namespace lensgraph::engine::gltf

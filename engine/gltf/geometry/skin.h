@@ -20,7 +20,7 @@ struct Influences {
 };
 
 /// Moves the vertices of `target`, which are those in `picked` of the file's, to where the joints put them, in the file's
-/// space. Throws Error naming `field`.
+/// space. Its triangles keep their front faces outside where joints mirror. Throws Error naming `field`.
 void applyRestPose(Document& document, const std::vector<glm::dmat4>& joints, const Influences& influences,
                    Picked picked, const std::string& field, Primitive& target);
 

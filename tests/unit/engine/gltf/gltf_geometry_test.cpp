@@ -243,6 +243,27 @@ TEST(GltfGeometry, SkinsAreBakedInTheirRestPose) {
   EXPECT_THAT(warnings, ElementsAre(HasSubstr("skins are drawn in their rest pose")));
 }
 
+// Joints that mirror turn a mesh inside out unless its triangles are turned, as those of a mirrored node are.
+TEST(GltfGeometry, MirroringJointsKeepFrontFacesOutside) {
+  for (const double sign : {1.0, -1.0}) {
+    GltfBuilder builder;
+    const Json primitive = {
+        {"attributes",
+         {{"POSITION", builder.addAccessor(kTriangle, "VEC3")},
+          {"JOINTS_0", builder.addAccessor(std::vector<uint8_t>(12, 0), "VEC4")},
+          {"WEIGHTS_0", builder.addAccessor(std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, "VEC4")}}}};
+    const int node = builder.addMesh(primitive);
+    builder.json["nodes"][static_cast<size_t>(node)]["skin"] = 0;
+    const int joint = builder.addNode({{"scale", {sign, 1, 1}}});
+    builder.json["skins"] = {{{"joints", {joint}}}};
+    const Scene scene = load(builder);
+    const auto corner = corners(scene.primitives[0]);
+    const glm::vec3 facing = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
+    EXPECT_GT(facing.z, 0.0f) << "scale " << sign;
+    EXPECT_GT(scene.primitives[0].normals[0].z, 0.0f) << "scale " << sign;
+  }
+}
+
 }  // namespace
 
 }  // namespace lensgraph
