@@ -8,6 +8,7 @@
 #include "passes/pinhole/pinhole.h"
 #include "rendergraph/compiler.h"
 #include "samples/host/fitting_size.h"
+#include "samples/host/list_room.h"
 #include "samples/host/read_back.h"
 #include "samples/host/renderer_state.h"
 #include "samples/host/shot_scene.h"
@@ -41,19 +42,6 @@ void add(shared::FrameStatistics& total, const shared::FrameStatistics& frame) {
   total.listFragments = std::max(total.listFragments, frame.listFragments);
   total.listFragmentsDropped = std::max(total.listFragmentsDropped, frame.listFragmentsDropped);
   total.unsortedLists += frame.unsortedLists;
-}
-
-/// Whether something was left out of a frame for want of room.
-bool lacksRoom(const shared::FrameStatistics& frame) {
-  return frame.transparentDropped > 0 || frame.fragmentNodesDropped > 0 || frame.listFragmentsDropped > 0;
-}
-
-/// Sets the room of what was too small to a quarter more than was needed, so that neighbouring views fit too.
-void makeRoom(const shared::FrameStatistics& frame, double pixels, passes::SceneDraw& scene) {
-  const auto perPixel = [&](uint32_t needed) { return static_cast<float>(1.25 * needed / pixels); };
-  if (frame.transparentDropped > 0) scene.transparentNodesPerPixel = perPixel(frame.transparentNodes);
-  if (frame.fragmentNodesDropped > 0) scene.fragmentNodesPerPixel = perPixel(frame.fragmentNodes);
-  if (frame.listFragmentsDropped > 0) scene.listFragmentsPerPixel = perPixel(frame.listFragments);
 }
 
 /// Converts the copies that the taps made in the latest execution to pictures.
@@ -169,7 +157,7 @@ Rendering RendererState::run(const ChosenTechnique& technique, const DofInputs& 
       std::memcpy(&statistics, executor.mapped(buffer).data(), sizeof statistics);
       add(rendering.statistics, statistics);
     }
-    if (!options.fixedRoom && lacksRoom(rendering.statistics))
+    if (!options.fixedRoom && lacksRoom(rendering.statistics, nodesAreCapped))
       return rendering;  // The caller makes room and starts again.
     if (options.progress) options.progress(frame + 1, frames);
     if (!isLast) continue;
@@ -192,26 +180,34 @@ Rendering Renderer::render(const Shot& shot, const RenderOptions& options) {
     state_->sceneDraw.listFragmentsPerPixel = options.fixedRoom->listFragments;
   }
   const double pixels = static_cast<double>(inputs.extent.width) * inputs.extent.height;
-  try {
-    for (;;) {
+  state_->nodesAreCapped = false;
+  for (Rooms before = roomsOf(state_->sceneDraw);;) {
+    try {
       auto rendering = state_->run(technique, inputs, options, [&](Graph& graph, uint32_t frame) {
         DofInputs now = inputs;
         now.frame = frame;
         return namingShot(shot, "technique",
                           [&] { return state_->declareTechnique(graph, now, technique, options.wantDepth); });
       });
-      if (options.fixedRoom || !lacksRoom(rendering.statistics)) {
+      if (options.fixedRoom || !lacksRoom(rendering.statistics, state_->nodesAreCapped)) {
         rendering.warnings = state_->warningsOf(shot, technique.entry, options.parameters, rendering);
         return rendering;
       }
-      makeRoom(rendering.statistics, pixels, state_->sceneDraw);
+      before = roomsOf(state_->sceneDraw);
+      makeRoom(rendering.statistics, pixels, state_->nodesAreCapped, state_->sceneDraw);
+    } catch (const rendergraph::GraphError& error) {
+      if (error.misuse() != rendergraph::Misuse::overLimit) throw;
+      const PictureExtent wanted{shot.width, shot.height};
+      const auto fitsNow = [&](PictureExtent extent) { return fits(*state_, shot, extent, options); };
+      // A picture with what the device has room for is better than none.
+      const bool hasGrown = state_->sceneDraw.fragmentNodesPerPixel > before.fragmentNodes;
+      state_->nodesAreCapped =
+          hasGrown && setMostFragmentNodes(
+                          before.fragmentNodes, [&] { return fitsNow(wanted); }, state_->sceneDraw);
+      if (state_->nodesAreCapped) continue;
+      rethrowNamingShot(tooLarge(wanted, options.technique, error, largestFitting(wanted, fitsNow)), shot,
+                        "resolution");
     }
-  } catch (const rendergraph::GraphError& error) {
-    if (error.misuse() != rendergraph::Misuse::overLimit) throw;
-    const PictureExtent wanted{shot.width, shot.height};
-    const auto fitting =
-        largestFitting(wanted, [&](PictureExtent extent) { return fits(*state_, shot, extent, options); });
-    rethrowNamingShot(tooLarge(wanted, options.technique, error, fitting), shot, "resolution");
   }
 }
 
@@ -229,6 +225,7 @@ std::vector<std::string> RendererState::warningsOf(const Shot& shot, const passe
     add(backFacesWarning(rendering.color, shot.background, *scene));
   }
   if (shot.shading == Shading::lit) add(unlitSceneWarning(*scene, hasEnvironment));
+  add(listRoomWarning(rendering.statistics));
   add(limitedBlurWarning(rendering.statistics.clampedCoc, shot.lens, technique, parameters, shot.height));
   return warnings;
 }

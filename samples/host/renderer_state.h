@@ -59,6 +59,8 @@ struct RendererState {
   std::optional<engine::Scene> scene;
   std::unique_ptr<engine::SceneRenderer> renderer;
   bool hasEnvironment = false;
+  /// Fragment nodes have all the room that the device can give, and what found none is left out.
+  bool nodesAreCapped = false;
   bool nothingIsVisible = false;  ///< Of the scene, in the shot that sceneInputs() was asked for last.
   passes::SceneDraw sceneDraw;
   std::vector<passes::VergenceInterval> occupied;  ///< What sceneDraw refers to.

@@ -107,6 +107,13 @@ std::optional<std::string> unlitSceneWarning(const engine::Scene& scene, bool ha
          "environment, or set shading to unlit";
 }
 
+std::optional<std::string> listRoomWarning(const shared::FrameStatistics& statistics) {
+  if (statistics.fragmentNodesDropped == 0) return std::nullopt;
+  return "lists had no room for " + std::to_string(statistics.fragmentNodesDropped) + " of " +
+         std::to_string(statistics.fragmentNodes) +
+         " fragments: some that lie farthest behind others are missing; a smaller picture has room";
+}
+
 std::optional<std::string> limitedBlurWarning(uint32_t limitedPixels, const passes::Lens& lens,
                                               const passes::Technique& technique,
                                               const passes::ParameterSet& parameters, int imageHeight) {

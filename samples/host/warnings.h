@@ -31,6 +31,9 @@ std::optional<std::string> backFacesWarning(const engine::FloatImage& color, con
 /// A scene that is to be lit, but has no light, glows nowhere and stands in no environment.
 std::optional<std::string> unlitSceneWarning(const engine::Scene& scene, bool hasEnvironment);
 
+/// Lists that had no room for all that was drawn, and kept what is nearest.
+std::optional<std::string> listRoomWarning(const shared::FrameStatistics& statistics);
+
 /// Blur that was limited, with the limit's name: a parameter of the technique or the lens's own. `imageHeight` in px.
 std::optional<std::string> limitedBlurWarning(uint32_t limitedPixels, const passes::Lens& lens,
                                               const passes::Technique& technique,

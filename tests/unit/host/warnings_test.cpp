@@ -87,6 +87,14 @@ TEST(UnlitSceneWarning, ComesOnlyWhereEverythingIsBlack) {
   EXPECT_FALSE(unlitSceneWarning(scene, false));
 }
 
+TEST(ListRoomWarning, CountsWhatIsMissing) {
+  shared::FrameStatistics statistics{};
+  EXPECT_FALSE(listRoomWarning(statistics));
+  statistics.fragmentNodes = 100;
+  statistics.fragmentNodesDropped = 7;
+  EXPECT_THAT(listRoomWarning(statistics), Optional(HasSubstr("no room for 7 of 100 fragments")));
+}
+
 TEST(LimitedBlurWarning, NamesTheLimitThatCounts) {
   const auto& technique = techniqueNamed("two_pass_filter");
   passes::Lens lens;
