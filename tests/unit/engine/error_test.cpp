@@ -23,10 +23,9 @@ TEST(Error, NeverSpansTwoLines) {
 }
 
 TEST(Error, LongPartsAreShortenedInTheMiddleAndTheOthersStayWhole) {
-  const engine::Error error({.file = std::string(3000, 'f') + "/end.gltf",
-                             .field = "meshes[2]",
-                             .reason = "'" + std::string(1000000, 'r') + "' is wrong",
-                             .remedy = "mend it"});
+  const std::string file = std::string(3000, 'f') + "/end.gltf";
+  const std::string reason = "'" + std::string(1000000, 'r') + "' is wrong";
+  const engine::Error error({.file = file, .field = "meshes[2]", .reason = reason, .remedy = "mend it"});
   const std::string line = error.what();
   EXPECT_LE(line.size(), engine::kLongestLine);
   EXPECT_GT(line.size(), engine::kLongestLine - 40);
