@@ -23,8 +23,9 @@ TEST(Error, NeverSpansTwoLines) {
 }
 
 TEST(Error, LongPartsAreShortenedInTheMiddleAndTheOthersStayWhole) {
-  const std::string file = std::string(3000, 'f') + "/end.gltf";
-  const std::string reason = "'" + std::string(1000000, 'r') + "' is wrong";
+  std::string file(3000, 'f'), reason(1000000, 'r');
+  file += "/end.gltf";
+  reason = "'" + reason + "' is wrong";
   const engine::Error error({.file = file, .field = "meshes[2]", .reason = reason, .remedy = "mend it"});
   const std::string line = error.what();
   EXPECT_LE(line.size(), engine::kLongestLine);
