@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <system_error>
 
@@ -31,13 +32,26 @@ ErrorKind kindOf(int error) {
   throw Error({.file = file.string(), .field = field, .reason = reason, .remedy = remedy}, kind);
 }
 
+/// The descriptor of this process that a path such as /proc/self/fd/1 stands for, where /dev/stdout leads; -1 for others.
+/// The text of such a link is no path to follow: a pipe has none, and a file must be written where the descriptor stands
+/// in it, behind what others have written.
+int descriptorOf(const fs::path& path) {
+  std::error_code error;
+  const fs::path folder = fs::canonical(path.has_parent_path() ? path.parent_path() : fs::path("."), error);
+  if (error || folder != fs::path("/proc") / std::to_string(::getpid()) / "fd") return -1;
+  const std::string name = path.filename().string();
+  int number = -1;
+  const auto [end, code] = std::from_chars(name.data(), name.data() + name.size(), number);
+  return code == std::errc{} && end == name.data() + name.size() ? number : -1;
+}
+
 /// What a path finally names; its last part need not exist.
 fs::path behindLinks(const fs::path& path, const std::string& field) {
   constexpr int kMostLinks = 40;  // As many as Linux follows.
   fs::path target = path;
   for (int i = 0; i < kMostLinks; ++i) {
     std::error_code error;
-    if (!fs::is_symlink(fs::symlink_status(target, error))) return target;
+    if (descriptorOf(target) >= 0 || !fs::is_symlink(fs::symlink_status(target, error))) return target;
     const fs::path next = fs::read_symlink(target, error);
     if (error) return target;
     target = next.is_absolute() ? next : target.parent_path() / next;
@@ -80,7 +94,7 @@ Place requirePlace(const fs::path& destination, const std::string& field) {
     return place;
   }
   if (S_ISDIR(status.st_mode)) refuse(destination, field, "is a folder", "name a file in it");
-  place.isStraight = !S_ISREG(status.st_mode);
+  place.isStraight = !S_ISREG(status.st_mode) || descriptorOf(place.target) >= 0;
   place.mode = status.st_mode & 0777;
   place.replaces = true;
   const bool isReadOnly = (status.st_mode & 0222) == 0 || ::access(place.target.c_str(), W_OK) != 0;
@@ -97,6 +111,12 @@ int openTemporary(const fs::path& temporary, mode_t mode) {
 [[noreturn]] void refuseFolder(const fs::path& destination, const std::string& field, int error) {
   refuse(destination, field, std::string("cannot be written: ") + std::strerror(error), "choose another place",
          kindOf(error));
+}
+
+/// A descriptor to write to what is there already, at its beginning or, for a descriptor's own path, where that stands.
+int openExisting(const fs::path& target, int flags) {
+  const int own = descriptorOf(target);
+  return own >= 0 ? ::fcntl(own, F_DUPFD_CLOEXEC, 3) : ::open(target.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC | flags);
 }
 
 /// All of the bytes, or the error number.
@@ -180,11 +200,25 @@ void OutputFile::write(std::span<const std::byte> bytes, uint64_t offset) {
 }
 
 void OutputFile::placeStraight() {
-  const int descriptor = ::open(target_.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC);
+  const int descriptor = openExisting(target_, 0);
   if (descriptor < 0) fail(errno);
   const int error = writeAll(descriptor, straight_);
   const bool isClosed = ::close(descriptor) == 0;
   if (error != 0 || !isClosed) fail(error != 0 ? error : errno);
+}
+
+void OutputFile::copyIntoTarget() {
+  const int from = ::open(temporary_.c_str(), O_RDONLY | O_CLOEXEC);
+  const int to = from < 0 ? -1 : openExisting(target_, O_TRUNC);
+  int error = to < 0 ? errno : 0;
+  std::vector<std::byte> piece(std::size_t{1} << 20);
+  for (ssize_t count = 1; error == 0 && count > 0;) {
+    count = ::read(from, piece.data(), piece.size());
+    error = count < 0 ? errno : writeAll(to, std::span(piece).first(static_cast<std::size_t>(count)));
+  }
+  if (to >= 0 && ::close(to) != 0 && error == 0) error = errno;
+  if (from >= 0) ::close(from);
+  if (error != 0) fail(error);
 }
 
 void OutputFile::place() {
@@ -194,7 +228,12 @@ void OutputFile::place() {
   const int descriptor = descriptor_;
   descriptor_ = -1;
   if (::close(descriptor) != 0) fail(errno);
-  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
+  if (::rename(temporary_.c_str(), target_.c_str()) != 0) {
+    // A mount point, or another's file in a folder such as /tmp, can be written but not replaced.
+    if (errno != EBUSY && errno != EPERM && errno != EACCES && errno != EXDEV) fail(errno);
+    copyIntoTarget();
+    ::unlink(temporary_.c_str());
+  }
   temporary_.clear();
   forgetUnfinished(slot_);
   slot_ = -1;

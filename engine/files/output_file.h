@@ -26,8 +26,9 @@ void requireWritable(const std::filesystem::path& destination, const std::string
 std::filesystem::path writtenPath(const std::filesystem::path& destination);
 
 /// One file being written. Symbolic links are followed: what they point to is replaced, the link stays. A file that
-/// is replaced hands on its permissions. What is no regular file (a FIFO, /dev/stdout, a device) is kept in memory and
-/// written straight by place().
+/// is replaced hands on its permissions. What is no regular file (a FIFO, a device) or a descriptor of this process
+/// (/dev/stdout) is kept in memory and written straight by place(). What can be written and not replaced, such as a file
+/// that is a mount point, is overwritten in place with the whole content.
 class OutputFile {
  public:
   /// Opens the temporary file. Throws as requireWritable().
@@ -47,6 +48,7 @@ class OutputFile {
  private:
   [[noreturn]] void fail(int error) const;
   void placeStraight();
+  void copyIntoTarget();
 
   std::filesystem::path destination_;  ///< As the user gave it, for messages.
   std::filesystem::path target_;       ///< Behind symbolic links.

@@ -29,7 +29,7 @@ class InstanceReader {
     const std::vector<float> translations = values("TRANSLATION", 3, kFloat);
     const std::vector<float> rotations = values("ROTATION", 4, kFloat | kNormalizedSigned);
     const std::vector<float> scales = values("SCALE", 3, kFloat);
-    document_.takeMemory(count * (memoryFor + sizeof(glm::dmat4)), 0, field_);
+    document_.takeInstances(count * (memoryFor + sizeof(glm::dmat4)), field_);
     std::vector<glm::dmat4> result;
     result.reserve(count);
     for (size_t i = 0; i < count; ++i) {

@@ -76,7 +76,7 @@ class Assembler {
       const uint32_t index = primitiveIndex(use);
       if (index == kNoIndex) continue;
       // The first primitive of a node is paid for by the node's own text.
-      if (use.primitive > 0) document_.takeMemory(instanceSize, 0, at("nodes", nodeIndex, ".mesh"));
+      if (use.primitive > 0) document_.takeInstances(instanceSize, at("nodes", nodeIndex, ".mesh"));
       for (const glm::dmat4& nodeFromObject : placements) {
         const glm::dmat4 worldFromObject = worldFromNode * nodeFromObject;
         if (!isFinite(worldFromObject)) document_.fail(at("nodes", nodeIndex), "its transform is too large");
@@ -164,10 +164,10 @@ class Assembler {
     light.innerConeAngle = gltf::toFloat(document_, source.spot.innerConeAngle, field + ".spot.innerConeAngle");
     light.outerConeAngle = gltf::toFloat(document_, source.spot.outerConeAngle, field + ".spot.outerConeAngle");
     const bool isConeOrdered = 0.0 <= source.spot.innerConeAngle &&
-                               source.spot.innerConeAngle < source.spot.outerConeAngle &&
+                               source.spot.innerConeAngle <= source.spot.outerConeAngle &&
                                source.spot.outerConeAngle <= kPi / 2.0 + 1e-6;
     if (light.type == LightType::spot && !isConeOrdered) {
-      document_.fail(field + ".spot", "cone angles must satisfy 0 <= inner < outer <= pi/2");
+      document_.fail(field + ".spot", "cone angles must satisfy 0 <= inner <= outer <= pi/2");
     }
     light.worldFromLight = world;
     scene_.lights.push_back(std::move(light));

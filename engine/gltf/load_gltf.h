@@ -22,8 +22,9 @@
 // Limits, each an error that names the field:
 //   file, JSON      4 GiB; JSON nested 100 levels deep; names are cut to 200 bytes
 //   geometry        what the file repeats or leaves to zeros (primitives that share all of an accessor, accessors without
-//                   buffer view, instances of meshes of many primitives): 12 MB of memory, and 6 bytes for each byte of the
-//                   file. Meshes that several nodes place, and primitives that use parts of one accessor, are no repetition
+//                   buffer view): 12 MB of memory, and 6 bytes for each byte of the file. Meshes that several nodes place,
+//                   and primitives that use parts of one accessor, are no repetition
+//   instances       32 MB for placements of primitives beyond the first of each node, and 16 bytes for each byte of buffers
 //   Draco           8 MB of vertices and indices, and 256 bytes for each byte of the file
 //   meshopt         64 bytes for each byte of a stream, and of the file
 //   images          16384 pixels a side; together 268 million pixels, and 32 for each byte of the images

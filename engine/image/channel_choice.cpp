@@ -218,6 +218,13 @@ std::vector<const Channel*> candidatesForDepth(const std::vector<Channel>& all) 
       if (isDepth(*channel, layer)) found.push_back(channel);
     }
   }
+  // A layer that is called depth comes before Z of another, such as Blender's "Denoising Depth".
+  const auto isNamed = [](const Channel* channel) {
+    return channel->fold.empty() || isDepthWord(channel->leaf) || isDepthWord(lastWord(channel->fold)) ||
+           lastWord(channel->fold) == "z";
+  };
+  if (std::ranges::any_of(found, isNamed))
+    std::erase_if(found, [&](const Channel* channel) { return !isNamed(channel); });
   // The only channel of a file is its depth, unless it is called like something else.
   if (found.empty() && all.size() == 1 && !isOtherData(all.front().fold) &&
       !isOneOf(all.front().leaf, {"r", "g", "b", "a", "x", "y", "u", "ry", "by", "red", "green", "blue", "alpha",

@@ -49,6 +49,8 @@ constexpr Known kKnown[] = {{"channels", "chlist"},
                             {"type", "string"},
                             {"version", "int"}};
 
+constexpr std::string_view kPartNames[] = {"chunkCount", "name", "type", "version"};
+
 /// Reads little-endian values and strings one after another; never beyond the end.
 class Reader {
  public:
@@ -163,8 +165,8 @@ void takeValue(Header& header, std::string_view name, std::span<std::byte> bytes
   }
 }
 
-/// One header up to its end. False: it is empty, which ends the headers of a file of several parts.
-bool takeHeader(const fs::path& path, std::span<std::byte> file, Reader& reader, Header& header) {
+/// One header up to its end. `hasTypes`: the file has several parts or deep ones, whose headers name and type them. False: it is empty, which ends the headers of a file of several parts.
+bool takeHeader(const fs::path& path, std::span<std::byte> file, bool hasTypes, Reader& reader, Header& header) {
   for (auto name = reader.name(); !name.empty(); name = reader.name()) {
     const size_t typeOffset = reader.offset();
     const std::string_view type = reader.name();
@@ -173,7 +175,10 @@ bool takeHeader(const fs::path& path, std::span<std::byte> file, Reader& reader,
     if (size < 0) reader.fail("attribute '" + std::string(name) + "' has a negative size");
     const auto bytes = reader.take(static_cast<size_t>(size));
     const auto* known = std::ranges::find(kKnown, name, &Known::name);
-    if (known == std::end(kKnown)) {
+    // Names that mean something in such files are free in others.
+    const bool isFree = !hasTypes && known != std::end(kKnown) && type != known->type &&
+                        std::ranges::find(kPartNames, name) != std::end(kPartNames);
+    if (known == std::end(kKnown) || isFree) {
       std::ranges::fill(file.subspan(typeOffset, type.size()), std::byte{'?'});
       continue;
     }
@@ -224,8 +229,8 @@ void checkPart(const fs::path& path, const Reader& reader, const Header& header)
   requireReadableSize(path, part.data.width, part.data.height);
   requireReadableSize(path, part.display.width, part.display.height);
   if (!header.tiles) return;
-  // A tile may be larger than a small picture, but not by much.
-  const int64_t most = std::max<int64_t>(256, 2 * std::max(part.data.width, part.data.height));
+  // A tile may be larger than a small picture.
+  const int64_t most = std::max<int64_t>(4096, 2 * std::max(part.data.width, part.data.height));
   const auto fits = [&](int64_t side) { return side >= 1 && side <= most; };
   if (!fits(header.tiles->width) || !fits(header.tiles->height)) {
     reader.fail("its tiles are " + std::to_string(header.tiles->width) + "x" + std::to_string(header.tiles->height) +
@@ -279,7 +284,7 @@ std::vector<ExrPart> readExrHeaders(const fs::path& path, std::span<std::byte> f
   }
   const bool isMultiPart = (version & kMultiPart) != 0;
   std::vector<Header> headers;
-  for (Header header; takeHeader(path, file, reader, header); header = {}) {
+  for (Header header; takeHeader(path, file, (version & (kMultiPart | kNonImage)) != 0, reader, header); header = {}) {
     const bool isTyped = header.seen.contains("type") && (isMultiPart || (version & kNonImage) != 0);
     const std::string type = isTyped ? header.type : (version & kTiled) != 0 ? "tiledimage" : "scanlineimage";
     header.part.isDeep = type == "deepscanline" || type == "deeptile" || (!isMultiPart && (version & kNonImage) != 0);

@@ -7,8 +7,8 @@
 #include "engine/error.h"
 #include "passes/pinhole/pinhole.h"
 #include "rendergraph/compiler.h"
-#include "samples/host/fitting_size.h"
-#include "samples/host/list_room.h"
+#include "samples/host/limits/fitting_size.h"
+#include "samples/host/limits/list_room.h"
 #include "samples/host/read_back.h"
 #include "samples/host/renderer_state.h"
 #include "samples/host/shot_scene.h"
@@ -205,6 +205,13 @@ Rendering Renderer::render(const Shot& shot, const RenderOptions& options) {
           hasGrown && setMostFragmentNodes(
                           before.fragmentNodes, [&] { return fitsNow(wanted); }, state_->sceneDraw);
       if (state_->nodesAreCapped) continue;
+      // What an earlier, smaller picture needed a pixel may be too much here, and more than this one needs.
+      const Rooms least = roomsOf(passes::SceneDraw());
+      if (!options.fixedRoom && !hasGrown && roomsOf(state_->sceneDraw) != least) {
+        setRooms(least, state_->sceneDraw);
+        before = least;
+        continue;
+      }
       rethrowNamingShot(tooLarge(wanted, options.technique, error, largestFitting(wanted, fitsNow)), shot,
                         "resolution");
     }

@@ -136,6 +136,7 @@ std::optional<std::string> clippedPictureWarning(const engine::FloatImage& color
   for (std::size_t i = 0; i < brightest.size(); ++i) {
     const float* pixel = color.samples.data() + i * color.channels;
     brightest[i] = *std::max_element(pixel, pixel + colors);
+    if (!std::isfinite(brightest[i])) brightest[i] = std::numeric_limits<float>::max();
   }
   // Half a step of 8 bits above white is still white.
   const auto limit = static_cast<float>(std::exp2(-exposureEv) * 1.004);

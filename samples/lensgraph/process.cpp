@@ -33,7 +33,7 @@ void setUpProcess() {
     // The lowest free number is taken, which is this one. Open for the wrong direction, so that a use fails as before.
     if (::fcntl(stream, F_GETFD) < 0) ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
   }
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) handle(signal);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGALRM}) handle(signal);
   std::signal(SIGXFSZ, SIG_IGN);
 }
 

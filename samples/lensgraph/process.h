@@ -3,7 +3,7 @@
 
 namespace lensgraph::cli {
 
-/// Interrupted (SIGINT, SIGTERM, SIGHUP), the program removes the files that it has begun and ends with the usual status,
+/// Ended by SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE or SIGALRM, the program removes the files that it has begun and ends with the usual status,
 /// 128 + the signal; a signal that the caller had ignored stays ignored. Beyond a file size limit (ulimit -f) writing
 /// fails instead of ending the program. Standard streams that are closed are opened so that no other file becomes them:
 /// writing to them fails.

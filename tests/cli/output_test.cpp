@@ -123,6 +123,28 @@ TEST_F(Output, TwoOutputsThatAreOneFileAreRefused) {
   expectError({"render", "shot.json", "-o", "a.exr", "--depth-out", "./b.exr"}, 2, {"is the same file as"});
 }
 
+/// A file that is a mount point of its own, as container programs make them.
+bool mountOnFile() {
+  if (unshare(CLONE_NEWNS) != 0 && unshare(CLONE_NEWUSER | CLONE_NEWNS) != 0) return false;
+  if (mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0) return false;
+  return mount("source.exr", "out.exr", nullptr, MS_BIND, nullptr) == 0;
+}
+
+TEST_F(Output, AFileThatIsAMountPointIsWrittenInPlace) {
+  write("source.exr", "before");
+  write("out.exr", "hidden");
+  const auto outcome = run({"render", "shot.json", "--technique", "pinhole", "-o", "out.exr"}, mountOnFile);
+  if (outcome.status == 126) GTEST_SKIP() << "no permission to mount a file system";
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(cli_test::contentOf(folder() / "out.exr"), "hidden");
+  runWell({"compare", "source.exr", "source.exr"});
+}
+
+TEST_F(Output, OneFileForBothFormsOfAGraphIsRefused) {
+  expectError({"graph", "shot.json", "--technique", "pinhole", "--dot", "g", "--json", "./g"}, 2,
+              {"is the same file as"});
+}
+
 TEST_F(Output, ANameThatIsNoUtf8GoesIntoACapture) {
   const std::string name = "quad\xff.gltf";
   std::filesystem::rename(folder() / "quad.gltf", folder() / name);

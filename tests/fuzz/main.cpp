@@ -148,6 +148,7 @@ int run(const Options& options) {
   Shared& shared = *new (memory) Shared;
 
   const pid_t child = ::fork();
+  if (child < 0) throw std::runtime_error("no process for the target");
   if (child == 0) {
     // Made here, not before: the libraries' threads do not live on in a forked process.
     try {

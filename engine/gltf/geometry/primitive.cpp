@@ -14,8 +14,7 @@
 namespace lensgraph::engine::gltf {
 namespace {
 
-// Types that glTF 2.0 and KHR_mesh_quantization allow. Colours are wider: plain integers are taken for
-// normalised ones.
+// Types that glTF 2.0 and KHR_mesh_quantization allow.
 constexpr unsigned kPositionTypes = kFloat | kNormalizedUnsigned | kNormalizedSigned | kPlainInteger;
 constexpr unsigned kNormalTypes = kFloat | kNormalizedSigned;
 constexpr unsigned kColorTypes = kFloat | kNormalizedUnsigned;

@@ -77,7 +77,7 @@ std::optional<std::pair<int, int>> versionOf(const std::string& text) {
 
 void checkVersion(const Source& source, const Json& asset) {
   const std::string version = asset["version"].get<std::string>();
-  if (!version.starts_with("2."))
+  if (version != "2" && !version.starts_with("2."))
     source.fail("asset.version", "glTF " + version + " is not read", "convert it to glTF 2.0");
   if (!asset.contains("minVersion")) return;
   const std::string least = asset["minVersion"].get<std::string>();
@@ -215,7 +215,18 @@ void Document::takeMemory(uint64_t loaded, uint64_t stored, const std::string& f
   fail(field,
        "asks for more geometry than the file holds: what is repeated or all zeros may take " +
            std::to_string(MemoryLimit::repeatedLimit(bytesHeld()) / 1'000'000) + " MB",
-       "place a mesh by several nodes instead of repeating its primitives");
+       "place a mesh by several nodes instead of repeating its geometry");
+}
+
+void Document::takeInstances(uint64_t bytes, const std::string& field) {
+  instanceBytes_ += bytes;
+  const uint64_t limit = kInstanceBase + kInstanceBytes * bytesHeld();
+  if (instanceBytes_ > limit) {
+    fail(field,
+         "brings the file's instances to more than the " + std::to_string(limit / 1'000'000) +
+             " MB that a file of this size may take",
+         "join the primitives of meshes that many nodes place");
+  }
 }
 
 void Document::addDecoded(int bufferView, uint64_t bytes, const std::string& field) {

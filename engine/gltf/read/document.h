@@ -30,6 +30,10 @@ struct Document : Source {
   /// Takes memory for `loaded` bytes of scene, read from `stored` bytes of the file. To be called before they are
   /// allocated. Throws Error naming the field when the file asks for more than memory_limit.h allows.
   void takeMemory(uint64_t loaded, uint64_t stored, const std::string& field);
+  /// Takes memory for placements of primitives beyond the first of each node. All of them may come to kInstanceBytes for
+  /// each byte of the file's buffers, and kInstanceBase more. Throws Error naming the field.
+  void takeInstances(uint64_t bytes, const std::string& field);
+  static constexpr uint64_t kInstanceBase = 32'000'000, kInstanceBytes = 16;
   /// What the Draco stream in a buffer view decodes to counts as bytes of the file, once for each view. All of them may
   /// come to kDecodedBytes for each byte of the file, and kDecodedBase more (flat grids shrink without end). To be called
   /// before decoding. Throws Error naming the field.
@@ -45,7 +49,7 @@ struct Document : Source {
 
   MemoryLimit memory_;
   std::set<int> decodedViews_;
-  uint64_t bytesDecoded_ = 0;
+  uint64_t bytesDecoded_ = 0, instanceBytes_ = 0;
 };
 
 /// Reads and checks a .gltf or .glb file, told apart by content. Opens none of the files that it names.

@@ -1,6 +1,7 @@
 // lensgraph graph: the compiled render graph of a shot and a technique, for Graphviz or as JSON.
 #include "rendergraph/graph.h"
 
+#include <array>
 #include <cstdio>
 #include <sstream>
 
@@ -21,6 +22,9 @@ int runGraph(const GraphArguments& arguments, const GlobalArguments& global) {
   const auto choice = chooseTechnique({shot.technique, shot.parameters}, arguments.technique);
   if (arguments.dot && *arguments.dot != "-") checkOutput(*arguments.dot, "--dot");
   if (arguments.json && *arguments.json != "-") checkOutput(*arguments.json, "--json");
+  const std::array<OutputFile, 2> files = {OutputFile{arguments.dot.value_or(""), "--dot"},
+                                           OutputFile{arguments.json.value_or(""), "--json"}};
+  requireDistinct(files);
 
   Session session(global);
   std::vector<std::string> warnings;

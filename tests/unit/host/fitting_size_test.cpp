@@ -1,5 +1,5 @@
 // The size that is suggested fits, and the next larger one does not.
-#include "samples/host/fitting_size.h"
+#include "samples/host/limits/fitting_size.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The room that is set is the most that fits, for each kind of list.
-#include "samples/host/list_room.h"
+#include "samples/host/limits/list_room.h"
 
 #include <gtest/gtest.h>
 

@@ -59,7 +59,8 @@ const Directions kDirections = {
     {"engine/gltf", {"engine", "engine/scene", "engine/gltf/*"}},
     {"engine/draw", {"engine", "engine/graph", "engine/image", "engine/scene", "engine/vulkan", kGraph, kShared}},
 
-    {"samples/host", {"engine", "engine/*", "passes", "passes/*", kGraph, kShared}},
+    {"samples/host", {"engine", "engine/*", "passes", "passes/*", "samples/host/limits", kGraph, kShared}},
+    {"samples/host/limits", {"engine", "passes", kGraph, kShared}},
     {"samples/lensgraph", {"engine", "engine/*", "passes", "passes/*", "samples/host", kGraph, kShared}},
     {"samples/lensgraph/capture",
      {"engine", "engine/*", "passes", "passes/*", "samples/host", "samples/lensgraph", kGraph, kShared}},

@@ -122,6 +122,28 @@ TEST(OutputFile, WritesStraightToWhatIsNoRegularFile) {
   EXPECT_STREQ(full.what(), "/dev/full: writing failed: No space left on device");
 }
 
+TEST(OutputFile, GoesBehindWhatADescriptorHasWritten) {
+  const TemporaryFolder folder;
+  const int log = ::open((folder / "log").c_str(), O_CREAT | O_WRONLY, 0600);
+  ASSERT_EQ(::write(log, "first ", 6), 6);
+  const std::filesystem::path link = folder / "link.txt";
+  std::filesystem::create_symlink("/proc/self/fd/" + std::to_string(log), link);
+  requireWritable(link);
+  writeFile(link, "second ");
+  ASSERT_EQ(::write(log, "third", 5), 5);
+  ::close(log);
+  EXPECT_EQ(contentOf(folder / "log"), "first second third");
+
+  int pipe[2];
+  ASSERT_EQ(::pipe(pipe), 0);
+  writeFile("/dev/fd/" + std::to_string(pipe[1]), "through");
+  char read[8] = {};
+  EXPECT_EQ(::read(pipe[0], read, sizeof read), 7);
+  EXPECT_STREQ(read, "through");
+  ::close(pipe[0]);
+  ::close(pipe[1]);
+}
+
 TEST(OutputFile, RefusesPlacesThatCannotBeWritten) {
   const TemporaryFolder folder;
   writeFile(folder / "readonly.txt", "before");

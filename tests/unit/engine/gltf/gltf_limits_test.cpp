@@ -187,7 +187,7 @@ TEST(GltfLimits, MeshesThatNodesPlaceAreNoRepetition) {
 TEST(GltfLimits, ManyNodesOfManyPrimitivesAreRefused) {
   GltfBuilder builder = repeating(3, 1000);
   for (int i = 0; i < 3000; ++i) builder.addNode({{"mesh", 0}});
-  EXPECT_THAT(load(builder).error, HasSubstr(".mesh: asks for more geometry than the file holds"));
+  EXPECT_THAT(load(builder).error, HasSubstr(".mesh: brings the file's instances to more than the 32 MB"));
 }
 
 TEST(GltfLimits, LongNamesAreNotCopiedToEveryInstance) {

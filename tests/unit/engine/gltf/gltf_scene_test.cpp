@@ -203,6 +203,16 @@ TEST(GltfScene, PunctualLights) {
   EXPECT_EQ(scene.lights[2].outerConeAngle, 0.5f);
 }
 
+// Against the specification, and written by exporters for lights with a hard edge.
+TEST(GltfScene, ASpotLightMayHaveAHardEdge) {
+  GltfBuilder builder;
+  builder.json["extensionsUsed"] = {"KHR_lights_punctual"};
+  builder.json["extensions"]["KHR_lights_punctual"]["lights"] = {
+      {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.5}, {"outerConeAngle", 0.5}}}}};
+  builder.addNode({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+  EXPECT_EQ(load(builder).lights.at(0).innerConeAngle, 0.5f);
+}
+
 TEST(GltfScene, IgnoredExtensionsAndAnimationsAreWarnings) {
   GltfBuilder builder = triangleFile();
   builder.json["extensionsUsed"] = {"KHR_materials_clearcoat", "KHR_materials_unlit"};

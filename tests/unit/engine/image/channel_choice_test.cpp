@@ -55,6 +55,11 @@ TEST(DepthChannel, IsFoundByItsName) {
   }
 }
 
+TEST(DepthChannel, OfALayerCalledDepthComesBeforeZOfAnother) {
+  EXPECT_EQ(depthIn({{"ViewLayer.Combined.R", 1}, {"ViewLayer.Denoising Depth.Z", 2}, {"ViewLayer.Depth.Z", 5}}), 5.0f);
+  EXPECT_EQ(depthIn({{"ViewLayer.Combined.R", 1}, {"ViewLayer.Denoising Depth.Z", 5}}), 5.0f);
+}
+
 TEST(DepthChannel, IsNeverPartOfAVector) {
   const Channels rgb = {{"R", 1}, {"G", 2}, {"B", 3}};
   for (const std::string layer : {"Normal", "ViewLayer.Normal", "normals", "N", "Position", "P", "Pworld", "UV",

@@ -64,6 +64,21 @@ class Hostile : public testing::Test {
 
 // ---- No files
 
+// Every compression and layout once, attributes that mean nothing here, tiles larger than the picture.
+TEST_F(Hostile, WhatFuzzingStartsFromIsRead) {
+  int count = 0;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::string(LENSGRAPH_SOURCE_DIR) + "/tests/fuzz/seeds")) {
+    const std::string extension = entry.path().extension();
+    if (extension != ".exr" && extension != ".png" && extension != ".hdr") continue;
+    SCOPED_TRACE(entry.path().filename());
+    const bool isDepth = entry.path().filename().string().starts_with("z_");
+    EXPECT_NO_THROW(isDepth ? engine::readDepth(entry.path()) : engine::readImage(entry.path()));
+    ++count;
+  }
+  EXPECT_GE(count, 15);
+}
+
 TEST_F(Hostile, PipesAndDevicesAreNotOpened) {
   const test::TemporaryFolder folder;
   for (const std::string name : {"pipe.exr", "pipe.png", "pipe.hdr"}) {

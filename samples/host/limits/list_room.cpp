@@ -1,9 +1,15 @@
 // Room in the per-pixel lists: see list_room.h.
-#include "samples/host/list_room.h"
+#include "samples/host/limits/list_room.h"
 
 namespace lensgraph::host {
 Rooms roomsOf(const passes::SceneDraw& scene) {
   return {scene.transparentNodesPerPixel, scene.fragmentNodesPerPixel, scene.listFragmentsPerPixel};
+}
+
+void setRooms(const Rooms& rooms, passes::SceneDraw& scene) {
+  scene.transparentNodesPerPixel = rooms.transparentNodes;
+  scene.fragmentNodesPerPixel = rooms.fragmentNodes;
+  scene.listFragmentsPerPixel = rooms.listFragments;
 }
 
 bool lacksRoom(const shared::FrameStatistics& frame, bool nodesAreCapped) {

@@ -1,5 +1,5 @@
 // The search for a size that fits: see fitting_size.h.
-#include "samples/host/fitting_size.h"
+#include "samples/host/limits/fitting_size.h"
 
 #include <algorithm>
 #include <cmath>

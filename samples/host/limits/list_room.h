@@ -15,6 +15,7 @@ struct Rooms {
 };
 
 Rooms roomsOf(const passes::SceneDraw& scene);
+void setRooms(const Rooms& rooms, passes::SceneDraw& scene);
 
 /// Whether something was left out of a frame for want of room; fragment nodes that are capped do not count.
 bool lacksRoom(const shared::FrameStatistics& frame, bool nodesAreCapped);
