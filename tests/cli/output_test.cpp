@@ -20,10 +20,14 @@ bool limitFiles() {
   return setrlimit(RLIMIT_FSIZE, &limit) == 0;
 }
 
+/// From here on, what is mounted is seen by this process and its children alone. False where that is not permitted.
+bool seesMountsAlone() {
+  return unshare(CLONE_NEWNS) == 0 && mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) == 0;
+}
+
 /// A full disk on the folder named disk, for this process alone. False where that is not permitted.
 bool fillDisk() {
-  if (unshare(CLONE_NEWNS) != 0 && unshare(CLONE_NEWUSER | CLONE_NEWNS) != 0) return false;
-  if (mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0) return false;
+  if (!seesMountsAlone()) return false;
   if (mount("tmpfs", "disk", "tmpfs", 0, "size=16k") != 0) return false;
   std::ofstream("disk/out.exr") << "before";
   std::ofstream filling("disk/filling", std::ios::binary);
@@ -125,8 +129,7 @@ TEST_F(Output, TwoOutputsThatAreOneFileAreRefused) {
 
 /// A file that is a mount point of its own, as container programs make them.
 bool mountOnFile() {
-  if (unshare(CLONE_NEWNS) != 0 && unshare(CLONE_NEWUSER | CLONE_NEWNS) != 0) return false;
-  if (mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0) return false;
+  if (!seesMountsAlone()) return false;
   return mount("source.exr", "out.exr", nullptr, MS_BIND, nullptr) == 0;
 }
 
