@@ -13,6 +13,10 @@ namespace {
 
 const rendergraph::ComputeProgram kGather{"template_technique.gather", template_technique_gather_comp};
 
+// The aperture is a disc.
+constexpr std::string_view kIgnoredLensFields[] = {"bladeCount",      "bladeRotation",     "bladeCurvature",
+                                                   "anamorphicRatio", "opticalVignetting", "sphericalAberration"};
+
 }  // namespace
 
 std::span<const Field<Parameters>> fields() {
@@ -49,6 +53,7 @@ Technique technique() {
                                     .source = "the folder to copy for a technique of your own",
                                     .input = TechniqueInput::image,
                                     .fields = fields(),
+                                    .ignoredLensFields = kIgnoredLensFields,
                                     .declare = declare,
                                     .quick = {.samples = 16}});
 }

@@ -1,8 +1,9 @@
-// The four laws that every technique is held to.
+// The five laws that every technique is held to.
 //   1. aperture 0 gives the pinhole picture, bit for bit
 //   2. a scene of one constant colour gives that colour everywhere, border included
 //   3. nothing non-finite comes out, whatever finite goes in; what is not finite does not spread
 //   4. the same inputs give the same bits, run to run
+//   5. exactly the fields of the lens that it lists as ignored change nothing
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -125,7 +126,8 @@ TEST_P(Laws, ExactlyTheListedLensFieldsAreIgnored) {
     auto changed = shot;
     make(changed.lens);
     const bool isSame = render(renderer, changed, GetParam(), quick(GetParam())).color.samples == plain;
-    EXPECT_EQ(isSame, std::ranges::find(ignored, field) != ignored.end()) << field << (isSame ? " changed nothing" : " changed the picture");
+    EXPECT_EQ(isSame, std::ranges::find(ignored, field) != ignored.end())
+        << field << (isSame ? " changed nothing" : " changed the picture");
   }
 }
 

@@ -1,4 +1,4 @@
-// The two-pass filter on a device: against the CPU reference, and held to the four laws of every technique.
+// The two-pass filter on a device: against the CPU reference, and held to the five laws of every technique.
 #include <gtest/gtest.h>
 
 #include <cmath>
