@@ -71,7 +71,7 @@ TEST(ReadmeExample, RunsThreePassesAndCompilesOnce) {
 }
 
 TEST(ReadmeExample, IsShownAsItStandsHere) {
-  std::ifstream file(__FILE__, std::ios::binary);
+  std::ifstream file(LENSGRAPH_SOURCE_DIR "/tests/unit/rendergraph/inspect/readme_example_test.cpp", std::ios::binary);
   const std::string source((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
   const std::string mark = "// [example]\n";
   const std::size_t begin = source.find(mark) + mark.size();
