@@ -180,8 +180,9 @@ Rendering Renderer::render(const Shot& shot, const RenderOptions& options) {
     state_->sceneDraw.listFragmentsPerPixel = options.fixedRoom->listFragments;
   }
   const double pixels = static_cast<double>(inputs.extent.width) * inputs.extent.height;
-  state_->nodesAreCapped = false;
-  for (Rooms before = roomsOf(state_->sceneDraw);;) {
+  RoomSearch room(state_->sceneDraw);
+  for (;;) {
+    state_->nodesAreCapped = room.nodesAreCapped();
     try {
       auto rendering = state_->run(technique, inputs, options, [&](Graph& graph, uint32_t frame) {
         DofInputs now = inputs;
@@ -189,29 +190,17 @@ Rendering Renderer::render(const Shot& shot, const RenderOptions& options) {
         return namingShot(shot, "technique",
                           [&] { return state_->declareTechnique(graph, now, technique, options.wantDepth); });
       });
-      if (options.fixedRoom || !lacksRoom(rendering.statistics, state_->nodesAreCapped)) {
+      if (options.fixedRoom || !lacksRoom(rendering.statistics, room.nodesAreCapped())) {
         rendering.warnings = state_->warningsOf(shot, technique.entry, options.parameters, rendering);
         return rendering;
       }
-      before = roomsOf(state_->sceneDraw);
-      makeRoom(rendering.statistics, pixels, state_->nodesAreCapped, state_->sceneDraw);
+      room.grow(rendering.statistics, pixels);
     } catch (const rendergraph::GraphError& error) {
       if (error.misuse() != rendergraph::Misuse::overLimit) throw;
       const PictureExtent wanted{shot.width, shot.height};
       const auto fitsNow = [&](PictureExtent extent) { return fits(*state_, shot, extent, options); };
       // A picture with what the device has room for is better than none.
-      const bool hasGrown = state_->sceneDraw.fragmentNodesPerPixel > before.fragmentNodes;
-      state_->nodesAreCapped =
-          hasGrown && setMostFragmentNodes(
-                          before.fragmentNodes, [&] { return fitsNow(wanted); }, state_->sceneDraw);
-      if (state_->nodesAreCapped) continue;
-      // What an earlier, smaller picture needed a pixel may be too much here, and more than this one needs.
-      const Rooms least = roomsOf(passes::SceneDraw());
-      if (!options.fixedRoom && !hasGrown && roomsOf(state_->sceneDraw) != least) {
-        setRooms(least, state_->sceneDraw);
-        before = least;
-        continue;
-      }
+      if (!options.fixedRoom && room.giveWay([&] { return fitsNow(wanted); })) continue;
       rethrowNamingShot(tooLarge(wanted, options.technique, error, largestFitting(wanted, fitsNow)), shot,
                         "resolution");
     }

@@ -7,7 +7,7 @@
 #include <csignal>
 
 #include "engine/files/output_file.h"
-#include "tests/unit/engine/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace lensgraph::cli {
 namespace {

@@ -13,7 +13,7 @@
 #include "engine/error.h"
 #include "engine/files/unfinished_files.h"
 #include "engine/image/image_io.h"
-#include "temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace lensgraph::engine {
 namespace {

@@ -10,7 +10,7 @@
 #include "engine/gltf/load_gltf.h"
 #include "engine/image/image_io.h"
 #include "engine/image/metrics.h"
-#include "temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace lensgraph {
 

@@ -11,7 +11,7 @@
 #include "image/image_test.h"
 #include "raw_exr.h"
 #include "raw_png.h"
-#include "temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace lensgraph {
 
