@@ -9,6 +9,7 @@
 #include "rendergraph/compiler.h"
 #include "samples/host/limits/fitting_size.h"
 #include "samples/host/limits/list_room.h"
+#include "samples/host/measures/process_usage.h"
 #include "samples/host/read_back.h"
 #include "samples/host/renderer_state.h"
 #include "samples/host/shot_scene.h"
@@ -144,9 +145,13 @@ Rendering RendererState::run(const ChosenTechnique& technique, const DofInputs& 
   for (uint32_t frame = 0; frame < frames; ++frame) {
     graph.reset();
     const bool isLast = frame + 1 == frames;
-    const auto back = declareReadBacks(graph, declareFrame(graph, frame), isLast, options.wantDepth);
+    const bool isShown = !isLast && options.intermediate && std::ranges::count(options.intermediateAt, frame + 1) > 0;
+    const auto back = declareReadBacks(graph, declareFrame(graph, frame), isLast || isShown, options.wantDepth);
     graph.finish();
+    const double cpuMsBefore = processCpuMs();
     executor.execute(graph, options.execute);
+    rendering.cpuMs += processCpuMs() - cpuMsBefore;
+    rendering.graphBytes = std::max<uint64_t>(rendering.graphBytes, executor.capture().memory.peakBytes);
     ++rendering.executions;
     if (options.observe) options.observe(executor.capture());
     if (options.tapped != nullptr) keepTapped(graph, executor, taps, *options.tapped);
@@ -160,6 +165,7 @@ Rendering RendererState::run(const ChosenTechnique& technique, const DofInputs& 
     if (!options.fixedRoom && lacksRoom(rendering.statistics, nodesAreCapped))
       return rendering;  // The caller makes room and starts again.
     if (options.progress) options.progress(frame + 1, frames);
+    if (isShown) options.intermediate(frame + 1, imageFrom(executor.mapped(back.color), inputs.extent, 4));
     if (!isLast) continue;
     rendering.color = imageFrom(executor.mapped(back.color), inputs.extent, 4);
     if (back.depth) {

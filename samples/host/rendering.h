@@ -24,6 +24,8 @@ struct Rendering {
   rendergraph::Capture capture;  ///< Of the last execution.
   double gpuMs = 0.0;            ///< Device time of all executions.
   double wallMs = 0.0;           ///< Host time of all executions. The first render() also compiles shaders.
+  double cpuMs = 0.0;            ///< Processor time of all threads of the process during these executions.
+  uint64_t graphBytes = 0;       ///< Memory that the graph allocated for an execution, the largest of all.
   uint32_t executions = 0;       ///< Of the graph; progressive techniques take several for one picture.
   /// One line each: what of the shot had no effect, or why the picture may not be what was meant.
   std::vector<std::string> warnings;
@@ -39,6 +41,9 @@ struct Tapped {
 /// Done executions and their number; called between executions.
 using Progress = std::function<void(uint32_t done, uint32_t total)>;
 
+/// A picture of a progressive technique before it is finished: after how many of its executions, and the picture.
+using Intermediate = std::function<void(uint32_t executions, const engine::FloatImage& color)>;
+
 /// Room in per-pixel lists, in fragments a pixel; see passes::SceneDraw.
 struct ListRoom {
   float fragmentNodes = 1.0f, listFragments = 4.0f;
@@ -50,6 +55,10 @@ struct RenderOptions {
   rendergraph::ExecuteOptions execute;
   bool wantDepth = false;
   Progress progress;
+  /// Called with the picture after each of the executions that `intermediateAt` names (from 1, ascending), the finished
+  /// one excepted. Null: never.
+  Intermediate intermediate;
+  std::vector<uint32_t> intermediateAt;
   /// Images of passes to be copied into `tapped`, which may be null without taps and lives as long as the rendering.
   /// A progressive technique's come from the last execution that has the pass. Formats that are no picture throw.
   std::vector<rendergraph::ImageTap> taps;

@@ -97,6 +97,11 @@ void addInspection(CLI::App& app, InspectionArguments& inspection) {
                  "isolated on CPU devices, inline on others")
       ->type_name("MODE")
       ->check(CLI::IsMember({"inline", "isolated"}));
+  app.add_option("--frames-timed", inspection.framesTimed,
+                 "Time this many more whole frames after the picture, when all is warm (default: 1 with --json)")
+      ->type_name("N")
+      ->check(CLI::Range(0, 100000));
+  app.add_flag("--json", inspection.json, "Print the report as JSON");
   app.add_option("--dump-image", inspection.dumps,
                  "Write an image inside the graph, as it is after the pass; may be repeated. list: say which there are")
       ->type_name("PASS/RESOURCE[MIP,LAYER]=FILE.exr|png")

@@ -36,8 +36,12 @@ struct InspectionArguments {
   std::optional<int> frames;                ///< Measured after one warm-up frame; kDefaultFrames when absent.
   std::optional<std::string> timing;        ///< "inline" or "isolated"; by the device's type when absent.
   std::vector<std::string> dumps;           ///< "PASS/RESOURCE[mip,layer]=FILE", or "list" alone.
+  std::optional<int> framesTimed;           ///< Whole frames to time after the picture; see timedFrames().
+  bool json = false;                        ///< Print the report as JSON.
   static constexpr int kDefaultFrames = 5;  ///< Few enough to wait for; enough for a median and its spread.
   bool measures() const { return capture || trace; }
+  /// As asked for; otherwise one for a report as JSON, which tells the price of a warm frame, and none for one in words.
+  int timedFrames() const { return framesTimed.value_or(json ? 1 : 0); }
 };
 
 struct RenderArguments {

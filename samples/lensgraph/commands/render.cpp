@@ -2,6 +2,7 @@
 #include "engine/image/image_io.h"
 #include "samples/lensgraph/capture/capture_file.h"
 #include "samples/lensgraph/capture/inspection.h"
+#include "samples/lensgraph/capture/report.h"
 #include "samples/lensgraph/output.h"
 #include "samples/lensgraph/progress.h"
 #include "samples/lensgraph/session.h"
@@ -20,13 +21,11 @@ void checkOutputs(const RenderArguments& arguments, const Inspection& inspection
   if (arguments.exposureEv && !arguments.output.empty()) warnUnusedExposure(arguments.output);
 }
 
-void writeOutputs(const RenderArguments& arguments, const host::Shot& shot, const host::TechniqueChoice& choice,
+void writeOutputs(const RenderArguments& arguments, const host::TechniqueChoice& choice,
                   const engine::DeviceDescription& device, const host::Rendering& rendering,
-                  const Inspection& inspection) {
+                  const Inspection& inspection, const CaptureInput& input) {
   writePicture(arguments.output, rendering.color, arguments.exposureEv);
   if (arguments.depthOut) engine::writeImage(*arguments.depthOut, rendering.depth);
-  CaptureInput input{arguments.shot.string(), {arguments.shot}, &shot.lens, shot.faces};
-  for (const auto& part : shot.scene) input.files.push_back(part.path);
   inspection.write(device, input, choice, rendering);
 }
 
@@ -63,8 +62,10 @@ int runRender(const RenderArguments& arguments, const GlobalArguments& global) {
     return session.finish();
   }
 
-  writeOutputs(arguments, shot, choice, device, rendering, inspection);
-  printSummary(device, choice, rendering);
+  CaptureInput input{arguments.shot.string(), {arguments.shot}, &shot.lens, shot.faces};
+  for (const auto& part : shot.scene) input.files.push_back(part.path);
+  writeOutputs(arguments, choice, device, rendering, inspection, input);
+  printReport({device, input, choice, rendering, inspection.frameTimes(), {}}, arguments.inspection.json);
   return session.finish();
 }
 
