@@ -22,17 +22,6 @@ std::string allTechniqueNames() {
   return names;
 }
 
-passes::ParameterValue parameterValue(const JsonNode& node) {
-  const auto& value = node.json();
-  if (value.is_boolean()) return value.get<bool>();
-  if (value.is_string()) return value.get<std::string>();
-  // Beyond 64 bits an unsigned number would wrap round; as a double it stays out of every range.
-  if (value.is_number_unsigned() && value.get<uint64_t>() > uint64_t{INT64_MAX}) return value.get<double>();
-  if (value.is_number_integer()) return value.get<int64_t>();
-  if (value.is_number()) return value.get<double>();
-  node.fail("is " + std::string(node.typeName()) + ", must be a boolean, a number or a string");
-}
-
 const passes::ParameterInfo* findParameter(const passes::Technique& technique, std::string_view name) {
   const auto found = std::find_if(technique.parameters.begin(), technique.parameters.end(),
                                   [&](const auto& info) { return info.name == name; });
@@ -56,6 +45,23 @@ const passes::Technique& requireTechnique(std::string_view name, const std::stri
   if (const auto* technique = passes::findTechnique(name)) return *technique;
   const Unknown unknown = unknownTechnique(name);
   throw engine::Error({.file = file, .field = field, .reason = unknown.reason, .remedy = unknown.remedy});
+}
+
+passes::ParameterValue parameterValue(const JsonNode& node) {
+  const auto& value = node.json();
+  if (value.is_boolean()) return value.get<bool>();
+  if (value.is_string()) return value.get<std::string>();
+  // Beyond 64 bits an unsigned number would wrap round; as a double it stays out of every range.
+  if (value.is_number_unsigned() && value.get<uint64_t>() > uint64_t{INT64_MAX}) return value.get<double>();
+  if (value.is_number_integer()) return value.get<int64_t>();
+  if (value.is_number()) return value.get<double>();
+  node.fail("is " + std::string(node.typeName()) + ", must be a boolean, a number or a string");
+}
+
+const passes::Technique& requireTechnique(const JsonNode& node, std::string_view name) {
+  if (const auto* technique = passes::findTechnique(name)) return *technique;
+  const Unknown unknown = unknownTechnique(name);
+  node.fail(unknown.reason, unknown.remedy);
 }
 
 TechniqueChoice parseTechnique(const JsonNode& node, std::string_view defaultName) {

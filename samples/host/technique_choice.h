@@ -23,6 +23,12 @@ struct TechniqueChoice {
 /// The technique of that name. Throws engine::Error with the nearest name; `file` and `field` say who asked.
 const passes::Technique& requireTechnique(std::string_view name, const std::string& file, const std::string& field);
 
+/// The same, for a name that stands in a file.
+const passes::Technique& requireTechnique(const JsonNode& node, std::string_view name);
+
+/// The value of a parameter: a boolean, a number or a string. Throws engine::Error for others.
+passes::ParameterValue parameterValue(const JsonNode& node);
+
 /// {"name": …, parameters…}. Without "name" the parameters are for `defaultName`; empty: "name" must be
 /// there.
 TechniqueChoice parseTechnique(const JsonNode& node, std::string_view defaultName = {});

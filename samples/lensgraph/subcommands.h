@@ -103,6 +103,33 @@ struct DemoArguments {
 };
 int runDemo(const DemoArguments& arguments, const GlobalArguments& global);
 
+struct BenchArguments {
+  std::string config;                               ///< A configuration file, or "quick".
+  std::filesystem::path output;                     ///< A folder.
+  std::vector<std::filesystem::path> shots;         ///< Instead of the configuration's; see findShots().
+  std::vector<std::string> programs;                ///< "NAME=PATH"
+  std::optional<std::filesystem::path> references;  ///< Folder of rendered references; OUTPUT/references when absent.
+  std::string shard;                                ///< "I/N"; empty: all.
+  std::optional<int> repeats;                       ///< Instead of the configuration's.
+};
+int runBench(const BenchArguments& arguments, const GlobalArguments& global);
+
+struct BenchMergeArguments {
+  std::vector<std::filesystem::path> folders;  ///< Of all shards.
+  std::filesystem::path output;
+};
+int runBenchMerge(const BenchMergeArguments& arguments);
+
+struct CompareBenchArguments {
+  std::filesystem::path before, after;  ///< bench.json, or folders that hold it.
+  std::string unit = "none";            ///< "none", "pinhole", "copy" or "accumulationView".
+  double timeTolerance = 1.1;           ///< Ratio of times that is still none of a regression, >= 1.
+  double psnrTolerance = 0.0;           ///< dB that PSNR may fall, >= 0.
+  double ssimTolerance = 0.0;           ///< By which SSIM may fall, >= 0.
+  bool json = false;
+};
+int runCompareBench(const CompareBenchArguments& arguments);
+
 struct CaptureViewArguments {
   std::filesystem::path capture, output;  ///< "-" as output is stdout.
 };
