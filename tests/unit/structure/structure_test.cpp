@@ -53,6 +53,7 @@ const Directions kDirections = {
     {"engine/graph", {"engine", "engine/vulkan", kGraph}},
     {"engine/files", {"engine"}},
     {"engine/image", {"engine", "engine/files", kGraph}},
+    {"engine/metrics", {"engine", "engine/image"}},
     {"engine/scene", {"engine"}},
     {"engine/gltf/read", {"engine"}},
     {"engine/gltf/geometry", {"engine", "engine/scene", "engine/gltf/read"}},
