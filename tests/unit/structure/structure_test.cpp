@@ -61,6 +61,7 @@ const Directions kDirections = {
     {"engine/draw", {"engine", "engine/graph", "engine/image", "engine/scene", "engine/vulkan", kGraph, kShared}},
 
     {"samples/host", {"engine", "engine/*", "passes", "passes/*", "samples/host/limits", kGraph, kShared}},
+    {"samples/host/measures", {"engine", "engine/*", "passes", "passes/*", "samples/host", kGraph, kShared}},
     {"samples/host/limits", {"engine", "passes", kGraph, kShared}},
     {"samples/lensgraph", {"engine", "engine/*", "passes", "passes/*", "samples/host", kGraph, kShared}},
     {"samples/lensgraph/capture",
