@@ -5,11 +5,11 @@
 #include <cstring>
 
 #include "engine/error.h"
+#include "engine/process_usage.h"
 #include "passes/pinhole/pinhole.h"
 #include "rendergraph/compiler.h"
 #include "samples/host/limits/fitting_size.h"
 #include "samples/host/limits/list_room.h"
-#include "samples/host/measures/process_usage.h"
 #include "samples/host/read_back.h"
 #include "samples/host/renderer_state.h"
 #include "samples/host/shot_scene.h"
@@ -148,9 +148,9 @@ Rendering RendererState::run(const ChosenTechnique& technique, const DofInputs& 
     const bool isShown = !isLast && options.intermediate && std::ranges::count(options.intermediateAt, frame + 1) > 0;
     const auto back = declareReadBacks(graph, declareFrame(graph, frame), isLast || isShown, options.wantDepth);
     graph.finish();
-    const double cpuMsBefore = processCpuMs();
+    const double cpuMsBefore = engine::processCpuMs();
     executor.execute(graph, options.execute);
-    rendering.cpuMs += processCpuMs() - cpuMsBefore;
+    rendering.cpuMs += engine::processCpuMs() - cpuMsBefore;
     rendering.graphBytes = std::max<uint64_t>(rendering.graphBytes, executor.capture().memory.peakBytes);
     ++rendering.executions;
     if (options.observe) options.observe(executor.capture());

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/image/metrics.h"
+#include "engine/image/srgb.h"
+#include "engine/metrics/displayed.h"
 
 namespace lensgraph::cli {
 namespace {

@@ -91,6 +91,7 @@ class CaseRun {
   Journal& journal_;
   std::vector<PlannedTurn> turns_;
   uint64_t triangles_ = 0;
+  engine::Camera camera_;
   std::unique_ptr<host::Renderer> renderer_;
   std::unique_ptr<ScreenCopy> copy_;
   std::unique_ptr<CaseReference> reference_;
@@ -100,6 +101,7 @@ void CaseRun::load() {
   std::vector<std::string> warnings;
   auto scene = host::loadShotScene(case_.shot, warnings);
   triangles_ = engine::triangleCount(scene);
+  camera_ = host::shotCamera(case_.shot, scene);
   renderer_ = std::make_unique<host::Renderer>(device_, std::move(scene), host::loadShotEnvironment(case_.shot));
   copy_ = std::make_unique<ScreenCopy>(device_, static_cast<uint32_t>(case_.shot.width),
                                        static_cast<uint32_t>(case_.shot.height));
@@ -133,7 +135,7 @@ void CaseRun::measureReference(const std::function<void(double)>& progress) {
   const int samples = case_.reference ? kLastCurveSamples : config_.referenceSamples;
   const auto pictures = accumulationPictures(*renderer_, case_.shot, samples, case_.id, options_.references, progress);
   const auto& picture = case_.reference ? engine::readImage(*case_.reference) : pictures.reference;
-  reference_ = std::make_unique<CaseReference>(*renderer_, case_.shot, picture, config_.exposureEv);
+  reference_ = std::make_unique<CaseReference>(*renderer_, case_.shot, camera_, picture, config_.exposureEv);
   if (journal_.find(caseKey(case_)) != nullptr) return;
 
   const std::string file = "pictures/" + case_.id + "/reference.exr";

@@ -4,32 +4,54 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "engine/image/metrics.h"
-#include "samples/lensgraph/capture/capture_file.h"
+#include "passes/lens/physical_lens.h"
+#include "samples/host/measures/coc_picture.h"
+#include "samples/host/measures/quality.h"
+#include "samples/host/shot_scene.h"
 
 namespace lensgraph::cli {
+namespace {
 
 using nlohmann::ordered_json;
 
-CaseReference::CaseReference(host::Renderer&, const host::Shot&, engine::FloatImage picture, double exposureEv)
-    : picture_(std::move(picture)), exposureEv_(exposureEv) {}
+/// The pinhole picture's depth, one sample at each pixel's center.
+engine::FloatImage depthOf(host::Renderer& renderer, const host::Shot& shot) {
+  host::RenderOptions options;
+  options.technique = "pinhole";
+  options.wantDepth = true;
+  return renderer.render(shot, options).depth;
+}
+
+}  // namespace
+
+CaseReference::CaseReference(host::Renderer& renderer, const host::Shot& shot, const engine::Camera& camera,
+                             engine::FloatImage picture, double exposureEv)
+    : picture_(std::move(picture)), exposureEv_(exposureEv) {
+  const auto lens = passes::lensConstants(shot.lens, camera.fovy, shot.height,
+                                          passes::metersFromSceneUnits(shot.lens, camera.nearPlane));
+  masks_ = engine::failureMasks(host::cocPicture(depthOf(renderer, shot), lens), picture_);
+}
 
 ordered_json CaseReference::maskShares() const {
-  return ordered_json::object();
+  ordered_json shares = ordered_json::object();
+  for (const auto& mask : masks_) {
+    double sum = 0.0;
+    for (const float inside : mask.pixels.samples) sum += inside;
+    shares[std::string(mask.name)] = sum / static_cast<double>(mask.pixels.pixelCount());
+  }
+  return shares;
 }
 
 ordered_json CaseReference::quality(const engine::FloatImage& picture) const {
-  const auto metrics = engine::compareImages(picture, picture_, {.exposureEv = exposureEv_, .mask = nullptr});
-  return {{"psnr", toJson(metrics.psnr)},
-          {"ssim", metrics.ssim ? ordered_json(*metrics.ssim) : ordered_json()},
-          {"relativeRmse", toJson(metrics.relativeRmse)},
-          {"maxError", metrics.maxErrorDisplayed},
-          {"nonFinitePixels", metrics.nonFinitePixels}};
+  return host::toJson(host::measureQuality(picture, picture_, masks_, exposureEv_));
 }
 
 ordered_json CaseReference::curveQuality(const engine::FloatImage& picture) const {
-  ordered_json all = quality(picture);
-  return {{"psnr", all["psnr"]}, {"ssim", all["ssim"]}, {"flip", all["flip"]}};
+  const auto quality = host::measureQuality(picture, picture_, {}, exposureEv_);
+  const auto& ssim = quality.metrics.ssim;
+  return {{"psnr", host::jsonNumber(quality.metrics.psnr)},
+          {"ssim", ssim ? host::jsonNumber(*ssim) : ordered_json()},
+          {"flip", quality.flip}};
 }
 
 }  // namespace lensgraph::cli

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <vector>
 
 #include "engine/image/image.h"
+#include "engine/metrics/failure_masks.h"
+#include "engine/scene/camera.h"
 #include "samples/host/renderer.h"
 #include "samples/host/shot.h"
 
@@ -11,8 +14,10 @@ namespace lensgraph::cli {
 
 class CaseReference {
  public:
-  /// The masks come from the depth of the shot's pinhole picture, which is rendered here.
-  CaseReference(host::Renderer& renderer, const host::Shot& shot, engine::FloatImage picture, double exposureEv);
+  /// The masks come from the depth of the shot's pinhole picture, which is rendered here. `camera`: the shot's, in its
+  /// scene. `picture`: the reference, in the shot's size.
+  CaseReference(host::Renderer& renderer, const host::Shot& shot, const engine::Camera& camera,
+                engine::FloatImage picture, double exposureEv);
 
   const engine::FloatImage& picture() const { return picture_; }
   /// {"nearEdge": share of the pixels, …}
@@ -25,6 +30,7 @@ class CaseReference {
  private:
   engine::FloatImage picture_;
   double exposureEv_;
+  std::vector<engine::FailureMask> masks_;
 };
 
 }  // namespace lensgraph::cli

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "samples/host/measures/process_usage.h"
+#include "engine/process_usage.h"
 
 namespace lensgraph::cli {
 
@@ -32,9 +32,9 @@ TurnTimes ScreenCopy::copy() {
   graph_.finish();
   rendergraph::ExecuteOptions options;
   options.timing = rendergraph::Timing::inlineTimestamps;
-  const double cpuMsBefore = host::processCpuMs();
+  const double cpuMsBefore = engine::processCpuMs();
   executor_.execute(graph_, options);
-  const double cpuMs = host::processCpuMs() - cpuMsBefore;
+  const double cpuMs = engine::processCpuMs() - cpuMsBefore;
   isFilled_ = true;
   const auto& capture = executor_.capture();
   return {.cpuMs = cpuMs, .wallMs = capture.frameWallMs, .gpuMs = std::max(capture.frameGpuMs, 0.0)};

@@ -7,8 +7,8 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "engine/process_usage.h"
 #include "rendergraph/capture_series.h"
-#include "samples/host/measures/process_usage.h"
 #include "samples/lensgraph/session.h"
 
 namespace lensgraph::cli {
@@ -45,7 +45,7 @@ void printJson(const Report& report, const std::vector<std::string>& warnings) {
   document["formatVersion"] = kReportVersion;
   document["first"] = {{"gpuMs", rendering.gpuMs}, {"wallMs", rendering.wallMs}, {"cpuMs", rendering.cpuMs}};
   document["warm"] = timesJson(report.warm);
-  document["memory"] = {{"graphBytes", rendering.graphBytes}, {"processBytes", host::peakProcessBytes()}};
+  document["memory"] = {{"graphBytes", rendering.graphBytes}, {"processBytes", engine::peakProcessBytes()}};
   document["warnings"] = warnings;
   document["notes"] = report.lines;
   std::cout << document.dump(2, ' ', false, json::error_handler_t::replace) << "\n";
@@ -64,7 +64,7 @@ void printTimes(const Report& report) {
   constexpr double kBytesPerMegabyte = 1e6;
   std::printf("memory     graph %.1f MB, process %.0f MB\n",
               static_cast<double>(report.rendering.graphBytes) / kBytesPerMegabyte,
-              static_cast<double>(host::peakProcessBytes()) / kBytesPerMegabyte);
+              static_cast<double>(engine::peakProcessBytes()) / kBytesPerMegabyte);
 }
 
 void printWords(const Report& report) {

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/image/image_io.h"
-#include "engine/image/metrics.h"
+#include "engine/metrics/metrics.h"
 #include "samples/lensgraph/capture/capture_file.h"
 #include "samples/lensgraph/subcommands.h"
 

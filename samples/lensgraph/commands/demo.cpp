@@ -6,7 +6,7 @@
 
 #include "engine/error.h"
 #include "engine/image/image_io.h"
-#include "engine/image/metrics.h"
+#include "engine/metrics/metrics.h"
 #include "samples/lensgraph/error_map.h"
 #include "samples/lensgraph/output.h"
 #include "samples/lensgraph/pages/demo_page.h"

@@ -1,11 +1,11 @@
 // Asks the operating system (POSIX): see process_usage.h.
-#include "samples/host/measures/process_usage.h"
+#include "engine/process_usage.h"
 
 #include <sys/resource.h>
 
 #include <ctime>
 
-namespace lensgraph::host {
+namespace lensgraph::engine {
 
 double processCpuMs() {
   timespec used{};
@@ -20,4 +20,4 @@ uint64_t peakProcessBytes() {
   return static_cast<uint64_t>(usage.ru_maxrss) * kBytesPerUnit;
 }
 
-}  // namespace lensgraph::host
+}  // namespace lensgraph::engine

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace lensgraph::host {
+namespace lensgraph::engine {
 
 /// ms of processor time, user and system, that all threads of this process have used since it started. On CPU devices
 /// the difference over a frame is the frame's cost: it does not depend on how many cores were free.
@@ -12,4 +12,4 @@ double processCpuMs();
 /// Bytes: the largest resident memory of this process so far. 0 where the system does not tell.
 uint64_t peakProcessBytes();
 
-}  // namespace lensgraph::host
+}  // namespace lensgraph::engine

@@ -1,0 +1,25 @@
+// Circles of confusion from depth: see coc_picture.h.
+#include "samples/host/measures/coc_picture.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "samples/host/rendering.h"
+
+namespace lensgraph::host {
+namespace {
+// 1/m; keeps the circle of confusion of a denormal depth finite.
+constexpr float kMostVergence = 1e30f;
+}  // namespace
+
+engine::FloatImage cocPicture(const engine::FloatImage& depth, const shared::LensConstants& lens) {
+  assert(depth.channels == 1);
+  engine::FloatImage coc(depth.width, depth.height, 1);
+  std::transform(depth.samples.begin(), depth.samples.end(), coc.samples.begin(), [&](float meters) {
+    const bool isHit = meters > 0.0f && meters < kNothingHit;  // false for NaN
+    return shared::signedCocRadius(lens, isHit ? std::min(1.0f / meters, kMostVergence) : 0.0f);
+  });
+  return coc;
+}
+
+}  // namespace lensgraph::host
