@@ -12,6 +12,7 @@
 #include "samples/host/shot_scene.h"
 #include "samples/lensgraph/bench/accumulation_pictures.h"
 #include "samples/lensgraph/bench/case_reference.h"
+#include "samples/lensgraph/bench/child_process.h"
 #include "samples/lensgraph/bench/names.h"
 #include "samples/lensgraph/bench/screen_copy.h"
 #include "samples/lensgraph/bench/turn.h"
@@ -255,12 +256,11 @@ TurnTimes CaseRun::timesOf(const PlannedTurn& turn) {
   }
   if (turn.program == kThisProgram) return timesOfFrames(turn.variant->choice.name, turn.variant->choice.parameters);
   std::string reason;
-  const auto picture = options_.folder / "turn.exr";
+  const ScratchFolder folder;
+  const auto picture = folder.path() / "turn.exr";
   const RenderRequest request{case_.shot.file,      case_.shot.width, case_.shot.height,
                               turn.variant->choice, picture,          options_.device};
   const auto times = programOf(turn).measure(request, reason);
-  std::error_code ignored;
-  std::filesystem::remove(picture, ignored);
   if (!times) throw engine::Error(turn.program + ": " + turn.name + ": " + reason, engine::ErrorKind::failed);
   return *times;
 }

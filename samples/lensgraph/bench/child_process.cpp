@@ -5,8 +5,10 @@
 #include <spawn.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <cerrno>
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <system_error>
@@ -52,9 +54,23 @@ int spawn(const std::filesystem::path& program, const std::vector<std::string>& 
 
 }  // namespace
 
-ChildOutcome runChild(const std::filesystem::path& program, const std::vector<std::string>& arguments,
-                      const std::filesystem::path& folder) {
-  const auto out = folder / "child_output.txt", err = folder / "child_errors.txt";
+ScratchFolder::ScratchFolder() {
+  std::string pattern = (std::filesystem::temp_directory_path() / "lensgraph-XXXXXX").string();
+  if (::mkdtemp(pattern.data()) == nullptr) {
+    throw engine::Error(pattern + ": cannot be made: " + std::generic_category().message(errno),
+                        engine::ErrorKind::failed);
+  }
+  path_ = pattern;
+}
+
+ScratchFolder::~ScratchFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+ChildOutcome runChild(const std::filesystem::path& program, const std::vector<std::string>& arguments) {
+  const ScratchFolder folder;
+  const auto out = folder.path() / "output", err = folder.path() / "errors";
   pid_t child = -1;
   ChildOutcome outcome;
   if (const int error = spawn(program, arguments, out, err, child); error != 0) {
@@ -72,9 +88,6 @@ ChildOutcome runChild(const std::filesystem::path& program, const std::vector<st
     outcome.out = contentOf(out);
     outcome.err = contentOf(err);
   }
-  std::error_code ignored;
-  std::filesystem::remove(out, ignored);
-  std::filesystem::remove(err, ignored);
   return outcome;
 }
 

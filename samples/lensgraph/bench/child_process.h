@@ -13,9 +13,22 @@ struct ChildOutcome {
   double cpuMs = 0.0;    ///< User and system time of all its threads.
 };
 
-/// Runs `program arguments…` and waits. Its output goes through two files in `folder`, which are removed. Throws
-/// engine::Error (failed) where no process or file can be made.
-ChildOutcome runChild(const std::filesystem::path& program, const std::vector<std::string>& arguments,
-                      const std::filesystem::path& folder);
+/// A folder of its own in the system's folder for temporary files, removed with everything in it afterwards.
+class ScratchFolder {
+ public:
+  /// Throws engine::Error (failed) where none can be made.
+  ScratchFolder();
+  ~ScratchFolder();
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// Runs `program arguments…` and waits. Throws engine::Error (failed) where it cannot be waited for.
+ChildOutcome runChild(const std::filesystem::path& program, const std::vector<std::string>& arguments);
 
 }  // namespace lensgraph::cli

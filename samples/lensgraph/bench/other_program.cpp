@@ -46,13 +46,13 @@ double medianOf(const json& document, const char* name) {
 
 }  // namespace
 
-OtherProgram::OtherProgram(const std::string& nameAndPath, const path& folder) : folder_(folder) {
+OtherProgram::OtherProgram(const std::string& nameAndPath) {
   const auto equals = nameAndPath.find('=');
   if (equals == std::string::npos || equals == 0) failProgram(nameAndPath, "is no NAME=PATH");
   name_ = nameAndPath.substr(0, equals);
   path_ = nameAndPath.substr(equals + 1);
   if (name_ == "this") failProgram(nameAndPath, "\"this\" is the program that runs the benchmark");
-  const auto version = runChild(path_, {"--version"}, folder_);
+  const auto version = runChild(path_, {"--version"});
   const std::string line = lastLine(version.out);
   if (version.status != 0 || !line.starts_with("lensgraph ")) {
     failProgram(nameAndPath, version.err.empty() ? "is no lensgraph" : "cannot be run: " + lastLine(version.err));
@@ -60,11 +60,11 @@ OtherProgram::OtherProgram(const std::string& nameAndPath, const path& folder) :
   const auto bracket = line.find(" (");
   version_ = line.substr(0, bracket);
   if (bracket != std::string::npos) commit_ = line.substr(bracket + 2, line.size() - bracket - 3);
-  timesFrames_ = runChild(path_, {"render", "--help"}, folder_).out.find("--frames-timed") != std::string::npos;
+  timesFrames_ = runChild(path_, {"render", "--help"}).out.find("--frames-timed") != std::string::npos;
 }
 
 bool OtherProgram::render(const RenderRequest& request, std::string& reason) const {
-  const auto outcome = runChild(path_, argumentsOf(request), folder_);
+  const auto outcome = runChild(path_, argumentsOf(request));
   if (outcome.status != 0) reason = lastLine(outcome.err);
   return outcome.status == 0;
 }
@@ -77,7 +77,7 @@ std::optional<TurnTimes> OtherProgram::timedFrames(const RenderRequest& request,
   constexpr int kFrames = 3;
   auto arguments = argumentsOf(request);
   arguments.insert(arguments.end(), {"--json", "--frames-timed", std::to_string(kFrames)});
-  const auto outcome = runChild(path_, arguments, folder_);
+  const auto outcome = runChild(path_, arguments);
   const auto report = json::parse(outcome.out, nullptr, false);
   if (outcome.status != 0 || !report.is_object() || !report.contains("warm")) {
     reason = lastLine(outcome.err);
@@ -88,19 +88,18 @@ std::optional<TurnTimes> OtherProgram::timedFrames(const RenderRequest& request,
 }
 
 std::optional<TurnTimes> OtherProgram::framesByDifference(const RenderRequest& request, std::string& reason) const {
-  const path capture = folder_ / "child_capture.json";
+  const ScratchFolder folder;
+  const path capture = folder.path() / "capture.json";
   const auto run = [&](int frames) {
     auto arguments = argumentsOf(request);
     arguments.insert(arguments.end(),
                      {"--capture", capture.string(), "--capture-frames", std::to_string(frames), "--timing", "inline"});
-    return runChild(path_, arguments, folder_);
+    return runChild(path_, arguments);
   };
   const auto few = run(1);
   std::ifstream stream(capture);
   const auto document = json::parse(stream, nullptr, false);
   stream.close();
-  std::error_code ignored;
-  std::filesystem::remove(capture, ignored);
   if (few.status != 0 || !document.is_object()) {
     reason = lastLine(few.err);
     return {};
@@ -111,7 +110,6 @@ std::optional<TurnTimes> OtherProgram::framesByDifference(const RenderRequest& r
   constexpr int kMostFrames = 40;
   const int more = static_cast<int>(std::clamp(kLongEnoughMs / std::max(times.wallMs, 1.0), 2.0, double{kMostFrames}));
   const auto many = run(1 + more);
-  std::filesystem::remove(capture, ignored);
   if (many.status != 0) {
     reason = lastLine(many.err);
     return {};

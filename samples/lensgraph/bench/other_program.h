@@ -22,9 +22,8 @@ struct RenderRequest {
 class OtherProgram {
  public:
   /// "NAME=PATH" of `--program`. Asks the program for its version and for what its `render` can measure. Throws
-  /// engine::Error (bad input, field "--program"): no such form, or no lensgraph at that path. `folder` takes files that
-  /// exist only while it runs.
-  OtherProgram(const std::string& nameAndPath, const std::filesystem::path& folder);
+  /// engine::Error (bad input, field "--program"): no such form, or no lensgraph at that path.
+  explicit OtherProgram(const std::string& nameAndPath);
 
   const std::string& name() const { return name_; }
   const std::string& version() const { return version_; }  ///< "lensgraph 0.1.0"
@@ -43,7 +42,7 @@ class OtherProgram {
   std::optional<TurnTimes> framesByDifference(const RenderRequest& request, std::string& reason) const;
 
   std::string name_, version_, commit_;
-  std::filesystem::path path_, folder_;
+  std::filesystem::path path_;
   bool timesFrames_ = false;
 };
 

@@ -118,11 +118,11 @@ int runBench(const BenchArguments& arguments, const GlobalArguments& global) {
   const Shard shard = arguments.shard.empty() ? Shard{} : parseShard(arguments.shard);
   const BenchConfig config = configOf(arguments);
   const auto cases = casesOf(config, shard);
+  std::vector<OtherProgram> programs;
+  for (const auto& text : arguments.programs) programs.emplace_back(text);
+  checkPrograms(programs);
   const path folder = std::filesystem::absolute(arguments.output);
   makeFolder(folder);
-  std::vector<OtherProgram> programs;
-  for (const auto& text : arguments.programs) programs.emplace_back(text, folder);
-  checkPrograms(programs);
 
   Session session(global);
   const auto facts = factsOf(config, session.device().description(), shard, programs);
