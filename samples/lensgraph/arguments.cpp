@@ -193,16 +193,28 @@ Action addTechniques(CLI::App& app) {
 }
 
 Action addCompare(CLI::App& app) {
-  auto* sub = app.add_subcommand("compare", "Measure how far a picture is from its reference");
+  auto* sub = app.add_subcommand("compare", "Measure how far pictures are from their reference");
   auto a = std::make_shared<CompareArguments>();
-  sub->add_option("picture", a->picture, "Picture")->type_name("A")->required();
-  sub->add_option("reference", a->reference, "Reference")->type_name("REFERENCE")->required();
+  sub->add_option("pictures", a->pictures, "Pictures, and last the reference")
+      ->type_name("PICTURE… REFERENCE")
+      ->required()
+      ->expected(2, CLI::detail::expected_max_vector_size);
   sub->add_option("--exposure", a->exposureEv, "Stops by which both are brightened before they are compared")
       ->type_name("EV");
+  sub->add_option("--shot", a->shot,
+                  "Shot whose lens and camera tell where depth of field fails: figures there as well")
+      ->type_name("SHOT.json");
+  sub->add_option("--depth", a->depth, "Depth of the shot through a pinhole, in metres (default: it is rendered)")
+      ->type_name("DEPTH.exr")
+      ->needs("--shot");
+  sub->add_option("--maps", a->maps, "Folder for pictures of FLIP, of the difference and of the masks")
+      ->type_name("DIR");
   sub->add_flag("--json", a->json, "As JSON");
-  return [a](const GlobalArguments&) {
+  return [a](const GlobalArguments& global) {
     requireFinite("--exposure", a->exposureEv);
-    return runCompare(*a);
+    a->reference = a->pictures.back();
+    a->pictures.pop_back();
+    return runCompare(*a, global);
   };
 }
 

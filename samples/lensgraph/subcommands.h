@@ -80,11 +80,15 @@ struct ApplyArguments {
 int runApply(const ApplyArguments& arguments, const GlobalArguments& global);
 
 struct CompareArguments {
-  std::filesystem::path picture, reference;
+  std::vector<std::filesystem::path> pictures;  ///< At least one.
+  std::filesystem::path reference;
   double exposureEv = 0.0;
   bool json = false;
+  std::optional<std::filesystem::path> shot;   ///< Whose lens and camera tell where depth of field fails.
+  std::optional<std::filesystem::path> depth;  ///< m, through a pinhole; with a shot only. Rendered when absent.
+  std::optional<std::filesystem::path> maps;   ///< Folder to write.
 };
-int runCompare(const CompareArguments& arguments);
+int runCompare(const CompareArguments& arguments, const GlobalArguments& global);
 
 struct GraphArguments {
   std::filesystem::path shot;

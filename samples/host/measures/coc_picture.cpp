@@ -3,8 +3,13 @@
 
 #include <algorithm>
 #include <cassert>
+#include <string>
+#include <vector>
 
+#include "engine/scene/scene.h"
+#include "passes/lens/physical_lens.h"
 #include "samples/host/rendering.h"
+#include "samples/host/shot_scene.h"
 
 namespace lensgraph::host {
 namespace {
@@ -20,6 +25,15 @@ engine::FloatImage cocPicture(const engine::FloatImage& depth, const shared::Len
     return shared::signedCocRadius(lens, isHit ? std::min(1.0f / meters, kMostVergence) : 0.0f);
   });
   return coc;
+}
+
+engine::FloatImage cocPicture(const engine::FloatImage& depth, const Shot& shot) {
+  engine::Scene scene;
+  std::vector<std::string> warnings;  // Of the loader; they matter to whoever renders the scene.
+  if (shot.camera.gltfCamera) scene = loadShotScene(shot, warnings);
+  const engine::Camera camera = shotCamera(shot, scene);
+  const int height = static_cast<int>(depth.height);
+  return cocPicture(depth, passes::lensConstants(shot.lens, camera.fovy, height, camera.nearPlane));
 }
 
 }  // namespace lensgraph::host

@@ -64,6 +64,8 @@ const Directions kDirections = {
     {"samples/host/measures", {"engine", "engine/*", "passes", "passes/*", "samples/host", kGraph, kShared}},
     {"samples/host/limits", {"engine", "passes", kGraph, kShared}},
     {"samples/lensgraph", {"engine", "engine/*", "passes", "passes/*", "samples/host", kGraph, kShared}},
+    {"samples/lensgraph/compare",
+     {"engine", "engine/*", "samples/host", "samples/host/measures", "samples/lensgraph", kGraph, kShared}},
     {"samples/lensgraph/capture",
      {"engine", "engine/*", "passes", "passes/*", "samples/host", "samples/lensgraph", kGraph, kShared}},
     {"samples/lensgraph/bench",
@@ -71,8 +73,8 @@ const Directions kDirections = {
       "samples/lensgraph/capture", kGraph, kShared}},
     {"samples/lensgraph/pages", {"engine", "engine/*", "samples/host", "samples/lensgraph", kGraph, kShared}},
     {"samples/lensgraph/commands",
-     {"engine", "engine/*", "passes", "passes/*", "samples/host", "samples/lensgraph", "samples/lensgraph/*", kGraph,
-      kShared}},
+     {"engine", "engine/*", "passes", "passes/*", "samples/host", "samples/host/measures", "samples/lensgraph",
+      "samples/lensgraph/*", kGraph, kShared}},
     {"samples/scenes/generate", {}},
 };
 
