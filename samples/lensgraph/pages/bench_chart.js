@@ -52,7 +52,8 @@ function drawAccumulation(svg, curve, { x, y }, inner, isToAccumulation) {
       .text("accumulation");
     return;
   }
-  svg.append("path").attr("class", "accumulation").attr("d", d3.line(step => x(step.time), step => y(step.quality))(curve));
+  svg.append("path").attr("class", "accumulation")
+    .attr("d", d3.line().x(step => x(step.time)).y(step => y(step.quality))(curve));
 }
 
 const curveStepText = (step, view) => ["accumulation, " + step.samples + " views",
@@ -144,7 +145,7 @@ function drawChart(box, shot, view, selected, width, select) {
 
 function drawFront(svg, points, { x, y }, view, right) {
   const front = frontOf(points, view.quality.better);
-  const line = d3.line(p => x(p.time.median), p => y(p.quality)).curve(d3.curveStepAfter);
+  const line = d3.line().x(p => x(p.time.median)).y(p => y(p.quality)).curve(d3.curveStepAfter);
   svg.append("path").attr("class", "front").attr("d", `${line(front)}H${right}`);
 }
 

@@ -3,7 +3,6 @@ const bench = data, shots = bench.shots, programs = bench.programs.map(program =
 
 /// What times are compared by: processor time where the processor draws, else the device's.
 const kClock = bench.device && bench.device.type === "cpu" ? "cpuMs" : "gpuMs";
-const kClockName = kClock === "cpuMs" ? "processor time" : "device time";
 
 const techniques = [...new Set(shots.flatMap(shot => shot.results.map(result => result.technique)))];
 const maskNames = [...new Set(shots.flatMap(shot => Object.keys(shot.masks || {})))];
@@ -49,25 +48,25 @@ const sameVariantOf = (shot, result, program) =>
 const alone = value => value === null ? null : { median: value, min: value, max: value };
 const statedRatio = (result, name) => result.ratios ? result.ratios[name] : null;
 
-/// Time axes: `of(result, shot)` is a spread; `accumulation(shot, samples)` is the time of so many views, or null.
+/// Time axes: `short` heads columns; `of(result, shot)` is a spread; `accumulation(shot, samples)` is the time of so many views, or null.
 const viewsOf = (shot, clock, samples) => {
   const view = spreadOf(shot.units && shot.units.accumulationView, clock);
   return view ? samples * view.median : null;
 };
-function unitAxis(id, text) {
+function unitAxis(id, text, short) {
   const unitOf = shot => spreadOf(shot.units && shot.units[id], kClock);
-  return { id, text, unit: "×",
+  return { id, text, short, unit: "×",
     of: (result, shot) => ratioOf(spreadOf(result, kClock), unitOf(shot), statedRatio(result, id)),
     accumulation: (shot, samples) => {
       const time = viewsOf(shot, kClock, samples), unit = unitOf(shot);
       return time !== null && unit && unit.median > 0 ? time / unit.median : null;
     } };
 }
-const equalQualityAxis = (id, text) => ({ id, text, unit: "×", isToAccumulation: true,
+const equalQualityAxis = (id, text, short) => ({ id, text, short, unit: "×", isToAccumulation: true,
   of: result => alone(numberOf(statedRatio(result, id))), accumulation: () => 1 });
-const clockAxis = (id, text) => ({ id, text, unit: "ms", of: result => spreadOf(result, id),
+const clockAxis = (id, text, short) => ({ id, text, short, unit: "ms", of: result => spreadOf(result, id),
   accumulation: (shot, samples) => viewsOf(shot, id, samples) });
-const programAxis = program => ({ id: `program ${program}`, text: `time / ${program}`, unit: "×",
+const programAxis = program => ({ id: `program ${program}`, text: `time / ${program}`, short: `× ${program}`, unit: "×",
   of: (result, shot) => {
     const other = sameVariantOf(shot, result, program);
     if (!other || result.program === program) return null;
@@ -76,11 +75,12 @@ const programAxis = program => ({ id: `program ${program}`, text: `time / ${prog
   accumulation: () => null });
 
 const timeAxes = [
-  unitAxis("pinhole", "time / pinhole frame"), unitAxis("copy", "time / full-screen copy"),
-  equalQualityAxis("accumulationAtPsnr", "time / accumulation at equal PSNR"),
-  equalQualityAxis("accumulationAtSsim", "time / accumulation at equal SSIM"),
+  unitAxis("pinhole", "time / pinhole frame", "× pinhole"), unitAxis("copy", "time / full-screen copy", "× copy"),
+  equalQualityAxis("accumulationAtPsnr", "time / accumulation at equal PSNR", "× accum. at PSNR"),
+  equalQualityAxis("accumulationAtSsim", "time / accumulation at equal SSIM", "× accum. at SSIM"),
   ...programs.slice(1).map(programAxis),
-  clockAxis("cpuMs", "processor time, ms"), clockAxis("wallMs", "wall time, ms"), clockAxis("gpuMs", "device time, ms"),
+  clockAxis("cpuMs", "processor time, ms", "proc. ms"), clockAxis("wallMs", "wall time, ms", "wall ms"),
+  clockAxis("gpuMs", "device time, ms", "device ms"),
 ].filter(axis => shots.some(shot => shot.results.some(result => axis.of(result, shot) !== null)));
 
 // ---- Quality

@@ -133,8 +133,8 @@ const spreadColumn = (group, name, title, of) => ({ group, name, title, more: re
   value: result => { const spread = of(result); return spread ? spread.median : null; },
   text: result => { const spread = of(result); return brief(spread ? spread.median : null); } });
 const plainColumn = (group, name, title, value, show) => ({ group, name, title, value, text: result => show(value(result)) });
-const timeColumn = axis => spreadColumn(axis.unit === "ms" ? "times" : "ratios", axis.text, `${axis.text}: median, least … largest`,
-  result => axis.of(result, shotOf()));
+const timeColumn = axis => spreadColumn(axis.unit === "ms" ? "times" : "ratios", axis.short,
+  `${axis.text}: median, least … largest`, result => axis.of(result, shotOf()));
 const memoryOf = name => result => result.memory ? numberOf(result.memory[name]) : null;
 
 const figureColumns = [
@@ -204,7 +204,9 @@ function chooseShot(index) {
   shotIndex = Number(index);
   const { results } = shotOf();
   if (!selectedResult()) {
-    const first = results.find(result => result.picture) || results[0];
+    // The best of the Pareto front; where there is none, the first that has a picture.
+    const front = frontOf(pointsOf(shotOf(), view), view.quality.better).filter(point => point.result.picture);
+    const first = front.length ? front[front.length - 1].result : results.find(result => result.picture) || results[0];
     selectedKey = first ? first.key : null;
   }
   byId("shot").value = shotIndex;
