@@ -128,6 +128,7 @@ function drawChart(box, shot, view, selected, width, select) {
   const height = Math.round(Math.max(300, Math.min(460, 0.66 * width)));
   const inner = { x: [52, width - 14], y: [height - 40, 26] };
   box.replaceChildren();
+  hideTip();
   const points = pointsOf(shot, view), curve = accumulationOf(shot, view);
   if (!points.length) {
     element(box, "p", { class: "quiet" }, "No variant has both figures here.");

@@ -13,7 +13,7 @@ function drawHead() {
   document.title = `${bench.name} – bench`;
   byId("title").textContent = `Bench ${bench.name}`;
   addThemeButton(byId("head"));
-  const facts = byId("facts"), { device = {}, host = {}, settings = {} } = bench;
+  const facts = byId("facts"), device = bench.device || {}, host = bench.host || {}, settings = bench.settings || {};
   fact(facts, "device", device.type ? `${device.name} (${device.type})` : device.name || kNone);
   fact(facts, "driver", device.driver || kNone);
   fact(facts, "host", `${host.processor || kNone}, ${host.cores || "?"} cores`);
@@ -88,14 +88,14 @@ function drawShotFacts() {
   if (shot.triangles !== undefined && shot.triangles !== null) fact(box, "triangles", shot.triangles.toLocaleString("en"));
   fact(box, "file", shot.file || kNone);
   fact(box, "scene", shot.sceneHash || kNone);
-  const { reference = {} } = shot;
+  const reference = shot.reference || {};
   fact(box, "reference", reference.samples ? `${reference.kind}, ${reference.samples} lens samples` : reference.kind || kNone);
   for (const [name, share] of Object.entries(shot.masks || {})) fact(box, name, percent(numberOf(share)));
 }
 
 const viewer = makePictureViewer(byId("viewer"), key => select(key));
 function showShotInViewer() {
-  const shot = shotOf(), { reference = {}, maskPictures = {} } = shot;
+  const shot = shotOf(), reference = shot.reference || {}, maskPictures = shot.maskPictures || {};
   viewer.show({ reference: { name: "reference", uri: reference.picture },
     pictures: shot.results.map(result => ({ id: result.key, name: nameOf(result), uri: result.picture, map: result.flipMap })),
     masks: Object.entries(maskPictures).filter(([, uri]) => uri).map(([name, uri]) => ({ name, uri })) }, selectedKey);
