@@ -16,12 +16,12 @@ function chartScales(points, curve, view, inner) {
   return { x, y, linear };
 }
 
-/// Ticks of a logarithmic axis that have room for their text: 1, 2, 5 and their powers of ten.
+/// Ticks of a logarithmic axis that have room for their text: 1, 2, 5 and their powers of ten, or these powers alone.
 function timeTicks(x) {
-  const [begin, end] = x.domain(), ticks = [];
-  const factors = Math.log10(end / begin) > 2.2 ? [1] : [1, 2, 5];
+  const [begin, end] = x.domain(), [left, right] = x.range(), ticks = [];
+  const decade = (right - left) / Math.log10(end / begin);
   for (let power = Math.floor(Math.log10(begin)); 10 ** power <= end; ++power) {
-    for (const factor of factors) ticks.push(factor * 10 ** power);
+    for (const factor of decade > 110 ? [1, 2, 5] : [1]) ticks.push(factor * 10 ** power);
   }
   const inside = ticks.filter(tick => tick >= begin && tick <= end);
   return inside.length > 1 ? inside : x.ticks(4);

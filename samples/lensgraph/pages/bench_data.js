@@ -76,8 +76,8 @@ const programAxis = program => ({ id: `program ${program}`, text: `time / ${prog
 
 const timeAxes = [
   unitAxis("pinhole", "time / pinhole frame", "× pinhole"), unitAxis("copy", "time / full-screen copy", "× copy"),
-  equalQualityAxis("accumulationAtPsnr", "time / accumulation at equal PSNR", "× accum. at PSNR"),
-  equalQualityAxis("accumulationAtSsim", "time / accumulation at equal SSIM", "× accum. at SSIM"),
+  equalQualityAxis("accumulationAtPsnr", "time / accumulation at equal PSNR", "×\u00a0accum. at\u00a0PSNR"),
+  equalQualityAxis("accumulationAtSsim", "time / accumulation at equal SSIM", "×\u00a0accum. at\u00a0SSIM"),
   ...programs.slice(1).map(programAxis),
   clockAxis("cpuMs", "processor time, ms", "proc. ms"), clockAxis("wallMs", "wall time, ms", "wall ms"),
   clockAxis("gpuMs", "device time, ms", "device ms"),
@@ -97,6 +97,9 @@ function qualityOf(result, axis, mask) {
   const part = mask ? (quality.masks || {})[mask] : quality;
   return part ? numberOf(part[axis.id]) : null;
 }
+
+/// Whether anything is measured so.
+const isMeasured = (axis, mask) => shots.some(shot => shot.results.some(r => qualityOf(r, axis, mask) !== null));
 
 // ---- What charts draw
 

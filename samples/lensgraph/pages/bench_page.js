@@ -45,9 +45,10 @@ function addControls() {
   const places = [{ id: "", text: "whole picture" }, ...maskNames.map(name => ({ id: name, text: name }))];
   axisChoice("measured in", "mask", places, "", mask => {
     view.mask = mask;
-    // Within masks only these two are measured.
-    if (mask && !["psnr", "ssim"].includes(view.quality.id)) view.quality = qualityAxes[0];
-    for (const option of quality.options) option.disabled = mask !== "" && !["psnr", "ssim"].includes(option.value);
+    for (const option of quality.options) {
+      option.disabled = !isMeasured(qualityAxes.find(axis => axis.id === option.value), mask);
+    }
+    if (!isMeasured(view.quality, mask)) view.quality = qualityAxes.find(axis => isMeasured(axis, mask)) || view.quality;
     quality.value = view.quality.id;
   });
   addLegend(byId("legend"));
