@@ -1,4 +1,5 @@
-# add_test_program(NAME label libraries...) builds every .cpp of the current folder and those below it into one program.
+# add_test_program(NAME label libraries...) builds every .cpp of the current folder and those below it into one program,
+# of which every test is one of CTest's. add_test_executable(NAME libraries...) leaves CTest to its caller.
 find_package(GTest REQUIRED)
 include(GoogleTest)
 
@@ -9,7 +10,7 @@ add_library(lensgraph_test_headers OBJECT ${CMAKE_BINARY_DIR}/generated/test_hea
 target_link_libraries(lensgraph_test_headers PRIVATE GTest::gmock lensgraph_flags)
 target_precompile_headers(lensgraph_test_headers PRIVATE <algorithm> <functional> <gmock/gmock.h> <gtest/gtest.h>)
 
-function(add_test_program name label)
+function(add_test_executable name)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   add_executable(${name} ${sources})
   target_link_libraries(${name} PRIVATE ${ARGN} GTest::gmock GTest::gtest_main lensgraph_flags)
@@ -17,6 +18,10 @@ function(add_test_program name label)
   get_filename_component(root ${CMAKE_CURRENT_FUNCTION_LIST_DIR} DIRECTORY)
   target_compile_definitions(${name} PRIVATE
     LENSGRAPH_SOURCE_DIR="${root}" LENSGRAPH_SHOTS_DIR="${LENSGRAPH_SHOTS}")
+endfunction()
+
+function(add_test_program name label)
+  add_test_executable(${name} ${ARGN})
   set(environment)
   if(label STREQUAL "unit")
     # No driver is there for what must not need one.

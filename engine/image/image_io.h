@@ -83,4 +83,8 @@ PictureRead readDepth(std::span<const std::byte> bytes, const std::filesystem::p
 /// channels; of kind failed where the disk is full.
 void writeImage(const std::filesystem::path& path, const FloatImage& image, const ImageWriteOptions& options = {});
 
+/// The bytes of the PNG file that writeImage() would write. `exposureEv`: stops, as in ImageWriteOptions.
+/// Throws Error: picture without pixels or with 2 or 5+ channels.
+std::vector<unsigned char> encodePng(const FloatImage& image, double exposureEv = 0.0);
+
 }  // namespace lensgraph::engine

@@ -58,7 +58,8 @@ class OutputProxy : public OIIO::Filesystem::IOProxy {
   std::exception_ptr failure_;
 };
 
-std::vector<uint8_t> encodePng(const FloatImage& image, double exposureEv) {
+/// The samples of an 8-bit PNG file.
+std::vector<uint8_t> pngSamples(const FloatImage& image, double exposureEv) {
   const float gain = static_cast<float>(std::exp2(exposureEv));
   const auto quantised = [](float v) { return static_cast<uint8_t>(std::lround(255.0f * std::clamp(v, 0.0f, 1.0f))); };
   std::vector<uint8_t> bytes(image.samples.size());
@@ -111,14 +112,39 @@ void writeSamples(const fs::path& destination, const OIIO::ImageSpec& spec, OIIO
   file.place();
 }
 
-}  // namespace
+OIIO::ImageSpec pngSpec(const FloatImage& image) {
+  OIIO::ImageSpec spec(static_cast<int>(image.width), static_cast<int>(image.height), static_cast<int>(image.channels),
+                       OIIO::TypeDesc::UINT8);
+  spec.attribute("oiio:ColorSpace", "sRGB");
+  spec.attribute("oiio:UnassociatedAlpha", 1);
+  return spec;
+}
 
-void writeImage(const fs::path& path, const FloatImage& image, const ImageWriteOptions& options) {
-  const ImageFormat format = imageFormatOf(path);
+void requireWritable(const fs::path& path, const FloatImage& image) {
   if (image.isEmpty()) failImage(path, "there are no pixels to write");
   if (image.channels != 1 && image.channels != 3 && image.channels != 4) {
     failImage(path, "a picture of " + std::to_string(image.channels) + " channels cannot be written", "use 1, 3 or 4");
   }
+}
+
+}  // namespace
+
+std::vector<unsigned char> encodePng(const FloatImage& image, double exposureEv) {
+  const fs::path name = "picture.png";  // For messages of errors.
+  requireWritable(name, image);
+  std::vector<unsigned char> file;
+  OIIO::Filesystem::IOVecOutput proxy(file);
+  const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("png");
+  if (!output) failEncoding(name, OIIO::geterror());
+  const bool isWritten = output->set_ioproxy(&proxy) && output->open(name.string(), pngSpec(image)) &&
+                         output->write_image(OIIO::TypeDesc::UINT8, pngSamples(image, exposureEv).data());
+  if (!isWritten || !output->close()) failEncoding(name, output->geterror());
+  return file;
+}
+
+void writeImage(const fs::path& path, const FloatImage& image, const ImageWriteOptions& options) {
+  const ImageFormat format = imageFormatOf(path);
+  requireWritable(path, image);
   const int width = static_cast<int>(image.width), height = static_cast<int>(image.height);
   const int channels = static_cast<int>(image.channels);
   switch (format) {
@@ -132,10 +158,7 @@ void writeImage(const fs::path& path, const FloatImage& image, const ImageWriteO
       break;
     }
     case ImageFormat::png: {
-      OIIO::ImageSpec spec(width, height, channels, OIIO::TypeDesc::UINT8);
-      spec.attribute("oiio:ColorSpace", "sRGB");
-      spec.attribute("oiio:UnassociatedAlpha", 1);
-      writeSamples(path, spec, OIIO::TypeDesc::UINT8, encodePng(image, options.exposureEv).data());
+      writeSamples(path, pngSpec(image), OIIO::TypeDesc::UINT8, pngSamples(image, options.exposureEv).data());
       break;
     }
     case ImageFormat::hdr: {
