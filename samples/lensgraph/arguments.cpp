@@ -209,6 +209,8 @@ Action addCompare(CLI::App& app) {
       ->needs("--shot");
   sub->add_option("--maps", a->maps, "Folder for pictures of FLIP, of the difference and of the masks")
       ->type_name("DIR");
+  sub->add_option("--page", a->page, "Write a page that shows pictures, FLIP, differences and masks")
+      ->type_name("FILE.html");
   sub->add_flag("--json", a->json, "As JSON");
   return [a](const GlobalArguments& global) {
     requireFinite("--exposure", a->exposureEv);
@@ -372,10 +374,7 @@ std::string suggestion(const CLI::App& app, const std::string& word) {
 
 int run(int argc, char** argv) {
   CLI::App app("Depth of field through a Vulkan render graph.", "lensgraph");
-  app.set_version_flag("--version", [] {
-    const std::string commit = kCommit;
-    return std::string("lensgraph ") + kVersion + (commit.empty() ? "" : " (" + commit + ")");
-  });
+  app.set_version_flag("--version", [] { return programName(); });
   app.footer("Exit codes: 0 done, 1 failed at run time, 2 bad input or usage.");
   app.fallthrough();  // global options may stand after the subcommand
   GlobalArguments global;

@@ -87,6 +87,7 @@ struct CompareArguments {
   std::optional<std::filesystem::path> shot;   ///< Whose lens and camera tell where depth of field fails.
   std::optional<std::filesystem::path> depth;  ///< m, through a pinhole; with a shot only. Rendered when absent.
   std::optional<std::filesystem::path> maps;   ///< Folder to write.
+  std::optional<std::filesystem::path> page;   ///< HTML file to write.
 };
 int runCompare(const CompareArguments& arguments, const GlobalArguments& global);
 

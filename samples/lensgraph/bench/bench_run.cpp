@@ -92,7 +92,6 @@ class CaseRun {
   Journal& journal_;
   std::vector<PlannedTurn> turns_;
   uint64_t triangles_ = 0;
-  engine::Camera camera_;
   std::unique_ptr<host::Renderer> renderer_;
   std::unique_ptr<ScreenCopy> copy_;
   std::unique_ptr<CaseReference> reference_;
@@ -102,7 +101,6 @@ void CaseRun::load() {
   std::vector<std::string> warnings;
   auto scene = host::loadShotScene(case_.shot, warnings);
   triangles_ = engine::triangleCount(scene);
-  camera_ = host::shotCamera(case_.shot, scene);
   renderer_ = std::make_unique<host::Renderer>(device_, std::move(scene), host::loadShotEnvironment(case_.shot));
   copy_ = std::make_unique<ScreenCopy>(device_, static_cast<uint32_t>(case_.shot.width),
                                        static_cast<uint32_t>(case_.shot.height));
@@ -136,12 +134,18 @@ void CaseRun::measureReference(const std::function<void(double)>& progress) {
   const int samples = case_.reference ? kLastCurveSamples : config_.referenceSamples;
   const auto pictures = accumulationPictures(*renderer_, case_.shot, samples, case_.id, options_.references, progress);
   const auto& picture = case_.reference ? engine::readImage(*case_.reference) : pictures.reference;
-  reference_ = std::make_unique<CaseReference>(*renderer_, case_.shot, camera_, picture, config_.exposureEv);
+  reference_ = std::make_unique<CaseReference>(*renderer_, case_.shot, picture, config_.exposureEv);
   if (journal_.find(caseKey(case_)) != nullptr) return;
 
   const std::string file = "pictures/" + case_.id + "/reference.exr";
   std::filesystem::create_directories((options_.folder / file).parent_path());
   engine::writeImage(options_.folder / file, reference_->picture());
+  ordered_json maskPictures = ordered_json::object();
+  for (const auto& mask : reference_->masks()) {
+    const std::string maskFile = "pictures/" + case_.id + "/mask_" + std::string(mask.name) + ".png";
+    engine::writeImage(options_.folder / maskFile, mask.pixels);
+    maskPictures[std::string(mask.name)] = maskFile;
+  }
   ordered_json curve = ordered_json::array();
   for (const auto& point : pictures.curve) {
     ordered_json quality = reference_->curveQuality(point.picture);
@@ -164,6 +168,7 @@ void CaseRun::measureReference(const std::function<void(double)>& progress) {
                                   {"commit", pictures.commit},
                                   {"picture", file}}},
                                 {"masks", reference_->maskShares()},
+                                {"maskPictures", std::move(maskPictures)},
                                 {"accumulation", std::move(curve)}});
 }
 

@@ -4,10 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "passes/lens/physical_lens.h"
 #include "samples/host/measures/coc_picture.h"
 #include "samples/host/measures/quality.h"
-#include "samples/host/shot_scene.h"
 
 namespace lensgraph::cli {
 namespace {
@@ -24,13 +22,11 @@ engine::FloatImage depthOf(host::Renderer& renderer, const host::Shot& shot) {
 
 }  // namespace
 
-CaseReference::CaseReference(host::Renderer& renderer, const host::Shot& shot, const engine::Camera& camera,
-                             engine::FloatImage picture, double exposureEv)
-    : picture_(std::move(picture)), exposureEv_(exposureEv) {
-  const auto lens = passes::lensConstants(shot.lens, camera.fovy, shot.height,
-                                          passes::metersFromSceneUnits(shot.lens, camera.nearPlane));
-  masks_ = engine::failureMasks(host::cocPicture(depthOf(renderer, shot), lens), picture_);
-}
+CaseReference::CaseReference(host::Renderer& renderer, const host::Shot& shot, engine::FloatImage picture,
+                             double exposureEv)
+    : picture_(std::move(picture)),
+      exposureEv_(exposureEv),
+      masks_(engine::failureMasks(host::cocPicture(depthOf(renderer, shot), shot), picture_)) {}
 
 ordered_json CaseReference::maskShares() const {
   ordered_json shares = ordered_json::object();

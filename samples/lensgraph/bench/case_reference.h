@@ -6,7 +6,6 @@
 
 #include "engine/image/image.h"
 #include "engine/metrics/failure_masks.h"
-#include "engine/scene/camera.h"
 #include "samples/host/renderer.h"
 #include "samples/host/shot.h"
 
@@ -14,12 +13,12 @@ namespace lensgraph::cli {
 
 class CaseReference {
  public:
-  /// The masks come from the depth of the shot's pinhole picture, which is rendered here. `camera`: the shot's, in its
-  /// scene. `picture`: the reference, in the shot's size.
-  CaseReference(host::Renderer& renderer, const host::Shot& shot, const engine::Camera& camera,
-                engine::FloatImage picture, double exposureEv);
+  /// The masks come from the depth of the shot's pinhole picture, which is rendered here. `picture`:
+  /// the reference, in the shot's size.
+  CaseReference(host::Renderer& renderer, const host::Shot& shot, engine::FloatImage picture, double exposureEv);
 
   const engine::FloatImage& picture() const { return picture_; }
+  const std::vector<engine::FailureMask>& masks() const { return masks_; }
   /// {"nearEdge": share of the pixels, …}
   nlohmann::ordered_json maskShares() const;
   /// Every figure of measures.md, those of each mask included.

@@ -109,6 +109,9 @@ int runBenchMerge(const BenchMergeArguments& arguments) {
     for (const auto& shot : part.document["shots"]) {
       addShot(merged["shots"], shot);
       copyPicture(part, shot["reference"]["picture"], arguments.output);
+      for (const auto& mask : shot.value("maskPictures", ordered_json::object())) {
+        copyPicture(part, mask, arguments.output);
+      }
       for (const auto& result : shot["results"]) copyPicture(part, result["picture"], arguments.output);
     }
   }

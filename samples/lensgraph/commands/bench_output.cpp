@@ -5,7 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/files/output_file.h"
+#include "engine/metrics/flip.h"
 #include "samples/lensgraph/bench/bench_document.h"
+#include "samples/lensgraph/pages/bench_page.h"
+#include "samples/lensgraph/pages/embedded_page.h"
 
 namespace lensgraph::cli {
 namespace {
@@ -48,6 +51,14 @@ void writeBench(const ordered_json& document, const std::filesystem::path& folde
     for (const auto& result : shot["results"]) printResult(result);
   }
   std::printf("results %s\n", (folder / "bench.json").c_str());
+  if (d3Script().empty()) return;  // Built without it: everything but the page.
+  BenchPageOptions options;
+  options.flipMap = [](const engine::FloatImage& picture, const engine::FloatImage& reference, double exposureEv) {
+    return engine::flip(picture, reference, {.exposureEv = exposureEv}).map;
+  };
+  const auto page = folder / "index.html";
+  engine::writeFile(page, benchPage(document, folder, options));
+  std::printf("page    %s\n", page.c_str());
 }
 
 }  // namespace lensgraph::cli

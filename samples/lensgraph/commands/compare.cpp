@@ -11,9 +11,13 @@
 #include "samples/lensgraph/compare/comparison.h"
 #include "samples/lensgraph/compare/map_files.h"
 #include "samples/lensgraph/compare/report.h"
+#include "samples/lensgraph/output.h"
+#include "samples/lensgraph/pages/compare_page.h"
+#include "samples/lensgraph/pages/embedded_page.h"
 #include "samples/lensgraph/progress.h"
 #include "samples/lensgraph/session.h"
 #include "samples/lensgraph/subcommands.h"
+#include "samples/lensgraph/version.h"
 
 namespace lensgraph::cli {
 namespace {
@@ -54,16 +58,39 @@ Blur blurOf(const CompareArguments& arguments, const engine::FloatImage& referen
   return {0, host::cocPicture(depth, shot)};
 }
 
+/// The page that shows the comparison. Takes its pictures.
+std::string pageOf(Comparison comparison) {
+  ComparePageContent content;
+  content.title = comparison.referenceFile.filename().string() + " and pictures of it";
+  content.program = programName();
+  content.exposureEv = comparison.exposureEv;
+  content.referenceName = comparison.referenceFile.filename().string();
+  content.reference = std::move(comparison.reference);
+  for (auto& picture : comparison.pictures) {
+    content.pictures.push_back({.name = picture.file.string(),
+                                .image = std::move(picture.picture),
+                                .flipMap = std::move(picture.flipMap),
+                                .figures = host::toJson(picture.quality)});
+  }
+  for (auto& mask : comparison.masks) content.masks.push_back({std::string(mask.name), std::move(mask.pixels)});
+  return comparePage(content);
+}
+
 }  // namespace
 
 int runCompare(const CompareArguments& arguments, const GlobalArguments& global) {
   if (arguments.maps) prepareMapFolder(*arguments.maps);
+  if (arguments.page) {
+    requireD3("compare --page");
+    checkOutput(*arguments.page, "--page");
+  }
   engine::FloatImage reference = engine::readImage(arguments.reference);
   std::optional<Blur> blur;
   if (arguments.shot) blur = blurOf(arguments, reference, global);
   Comparison comparison = beginComparison(arguments.reference, std::move(reference), blur ? &blur->coc : nullptr);
-  const ComparisonRequest request{
-      .pictures = arguments.pictures, .exposureEv = arguments.exposureEv, .keepsMaps = arguments.maps.has_value()};
+  const ComparisonRequest request{.pictures = arguments.pictures,
+                                  .exposureEv = arguments.exposureEv,
+                                  .keepsMaps = arguments.maps || arguments.page};
   measurePictures(request, comparison);
   if (arguments.maps) writeMaps(comparison, *arguments.maps);
   if (arguments.json) {
@@ -71,6 +98,7 @@ int runCompare(const CompareArguments& arguments, const GlobalArguments& global)
   } else {
     std::cout << reportText(comparison);
   }
+  if (arguments.page) writeTextFile(*arguments.page, pageOf(std::move(comparison)));
   return blur ? blur->exitCode : 0;
 }
 

@@ -159,11 +159,8 @@ int runDemo(const DemoArguments& arguments, const GlobalArguments& global) {
   const std::string device = describe(session.device().description());
   std::cout << "device  " << device << "\n" << std::flush;
 
-  const std::string commit = kCommit;
-  DemoReport report{.device = device,
-                    .version = std::string("lensgraph ") + kVersion + (commit.empty() ? "" : " (" + commit + ")"),
-                    .referenceSamples = arguments.referenceSamples,
-                    .scenes = {}};
+  DemoReport report{
+      .device = device, .version = programName(), .referenceSamples = arguments.referenceSamples, .scenes = {}};
   {
     Steps steps(shots.size() * (1 + passes::techniques().size()));
     for (const auto& shot : shots) report.scenes.push_back(renderScene(session, shot, arguments, steps));

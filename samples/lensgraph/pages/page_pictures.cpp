@@ -7,7 +7,8 @@
 #include <span>
 
 #include "engine/image/image_io.h"
-#include "engine/image/metrics.h"
+#include "engine/image/srgb.h"
+#include "engine/metrics/displayed.h"
 
 namespace lensgraph::cli {
 namespace {
