@@ -69,6 +69,7 @@ TEST_F(Bench, ItsFilesSayWhatWasMeasuredWhereAndHow) {
   EXPECT_TRUE(std::filesystem::exists(folder() / "out" / result["picture"].get<std::string>()));
   EXPECT_TRUE(std::filesystem::exists(folder() / "out" / shot["reference"]["picture"].get<std::string>()));
   EXPECT_EQ(linesOf("out/bench.csv").size(), 4u);
+  EXPECT_THAT(cli_test::contentOf(folder() / "out/index.html"), HasSubstr("two_pass_filter leakage=0.2"));
 }
 
 TEST_F(Bench, GoesOnWhereItWasInterrupted) {
