@@ -59,7 +59,11 @@ void printSummary(const engine::DeviceDescription& device, const host::Technique
                 parameter.unit.empty() ? "" : " ", std::string(parameter.unit).c_str());
   }
   std::printf("picture    %u x %u px\n", rendering.color.width, rendering.color.height);
-  std::printf("time       GPU %.2f ms, wall %.2f ms\n", rendering.gpuMs, rendering.wallMs);
+  if (rendering.executions > 0) {
+    std::printf("time       GPU %.2f ms, wall %.2f ms\n", rendering.gpuMs, rendering.wallMs);
+  } else {
+    std::printf("time       wall %.2f ms\n", rendering.wallMs);  // No device took part.
+  }
   if (rendering.estimatedError >= 0.0) std::printf("estimate   RMS error %.2g left\n", rendering.estimatedError);
   if (rendering.statistics.replacedTexels > 0) {
     spdlog::warn("{} texels that were not finite were replaced by 0", rendering.statistics.replacedTexels);
