@@ -23,6 +23,7 @@ const std::array<float, 256>& decoding(ColorEncoding encoding) {
 }
 
 int64_t wrapped(int64_t i, int64_t size, Wrap wrap) {
+  if (i >= 0 && i < size) return i;  // Divisions would cost more than the rest of a lookup.
   switch (wrap) {
     case Wrap::clampToEdge:
       break;
@@ -52,6 +53,7 @@ TextureLookup::TextureLookup(const Scene& scene, const TextureUse& use) : uvSet_
   if (!use.isUsed()) return;
   const Texture& texture = scene.textures[use.texture];
   image_ = &scene.images[texture.image];
+  decoding_ = &decoding(image_->encoding);
   wrapS_ = texture.wrapS;
   wrapT_ = texture.wrapT;
   isNearest_ = texture.magFilter == Filter::nearest;
@@ -62,11 +64,17 @@ glm::vec2 TextureLookup::transformed(const std::array<glm::vec2, 2>& uvs) const 
   return origin_ + u_ * uv.x + v_ * uv.y;
 }
 
-glm::vec4 TextureLookup::texel(int64_t x, int64_t y) const {
-  const auto column = static_cast<std::size_t>(wrapped(x, image_->width, wrapS_));
-  const auto row = static_cast<std::size_t>(wrapped(y, image_->height, wrapT_));
+std::size_t TextureLookup::column(int64_t x) const {
+  return static_cast<std::size_t>(wrapped(x, image_->width, wrapS_));
+}
+
+std::size_t TextureLookup::row(int64_t y) const {
+  return static_cast<std::size_t>(wrapped(y, image_->height, wrapT_));
+}
+
+glm::vec4 TextureLookup::texel(std::size_t column, std::size_t row) const {
   const uint8_t* bytes = image_->rgba.data() + (row * image_->width + column) * 4;
-  const auto& color = decoding(image_->encoding);
+  const auto& color = *decoding_;
   return {color[bytes[0]], color[bytes[1]], color[bytes[2]], static_cast<float>(bytes[3]) / 255.0f};
 }
 
@@ -75,12 +83,15 @@ glm::vec4 TextureLookup::at(const std::array<glm::vec2, 2>& uvs) const {
   const glm::vec2 uv = transformed(uvs);
   const float x = bounded(uv.x * static_cast<float>(image_->width));
   const float y = bounded(uv.y * static_cast<float>(image_->height));
-  if (isNearest_) return texel(static_cast<int64_t>(std::floor(x)), static_cast<int64_t>(std::floor(y)));
+  if (isNearest_) {
+    return texel(column(static_cast<int64_t>(std::floor(x))), row(static_cast<int64_t>(std::floor(y))));
+  }
   const float left = std::floor(x - 0.5f), top = std::floor(y - 0.5f);
   const float across = x - 0.5f - left, down = y - 0.5f - top;
-  const auto column = static_cast<int64_t>(left), row = static_cast<int64_t>(top);
-  const glm::vec4 upper = texel(column, row) * (1.0f - across) + texel(column + 1, row) * across;
-  const glm::vec4 lower = texel(column, row + 1) * (1.0f - across) + texel(column + 1, row + 1) * across;
+  const auto x0 = static_cast<int64_t>(left), y0 = static_cast<int64_t>(top);
+  const std::size_t column0 = column(x0), column1 = column(x0 + 1), row0 = row(y0), row1 = row(y0 + 1);
+  const glm::vec4 upper = texel(column0, row0) * (1.0f - across) + texel(column1, row0) * across;
+  const glm::vec4 lower = texel(column0, row1) * (1.0f - across) + texel(column1, row1) * across;
   return upper * (1.0f - down) + lower * down;
 }
 

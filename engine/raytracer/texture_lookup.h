@@ -3,6 +3,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
@@ -24,9 +26,12 @@ class TextureLookup {
   bool isUsed() const { return image_ != nullptr; }
 
  private:
-  glm::vec4 texel(int64_t x, int64_t y) const;
+  std::size_t column(int64_t x) const;
+  std::size_t row(int64_t y) const;
+  glm::vec4 texel(std::size_t column, std::size_t row) const;
 
   const SceneImage* image_ = nullptr;
+  const std::array<float, 256>* decoding_ = nullptr;  ///< Of the image's color bytes.
   Wrap wrapS_ = Wrap::repeat, wrapT_ = Wrap::repeat;
   bool isNearest_ = false;
   uint32_t uvSet_ = 0;
