@@ -10,6 +10,7 @@
 #include "rendergraph/compiler.h"
 #include "samples/host/limits/fitting_size.h"
 #include "samples/host/limits/list_room.h"
+#include "samples/host/raytraced.h"
 #include "samples/host/read_back.h"
 #include "samples/host/renderer_state.h"
 #include "samples/host/shot_scene.h"
@@ -82,6 +83,7 @@ bool fits(RendererState& state, const Shot& shot, PictureExtent extent, const Re
 
 ChosenTechnique techniqueOf(const RenderOptions& options) {
   const passes::Technique& technique = requireTechnique(options.technique, {}, "technique");
+  if (isRaytraced(technique.name)) failWithoutGraph("--technique", "no graph to declare");
   const auto problems = passes::check(options.parameters, technique.parameters);
   if (!problems.empty()) throwProblem(problems.front(), technique.name);
   return {technique, technique.configure(options.parameters)};
@@ -93,7 +95,7 @@ Renderer::Renderer(engine::Device& device, const Shot& shot, std::vector<std::st
 Renderer::Renderer(engine::Device& device, engine::Scene scene, const std::optional<engine::Environment>& environment)
     : state_(std::make_unique<RendererState>(device)) {
   state_->scene = std::move(scene);
-  state_->hasEnvironment = environment.has_value();
+  state_->environment = environment;
   state_->renderer = std::make_unique<engine::SceneRenderer>(state_->backend, *state_->scene, environment);
 }
 
@@ -179,6 +181,10 @@ Rendering RendererState::run(const ChosenTechnique& technique, const DofInputs& 
 }
 
 Rendering Renderer::render(const Shot& shot, const RenderOptions& options) {
+  if (isRaytraced(requireTechnique(options.technique, {}, "technique").name)) {
+    if (!state_->scene) throw engine::Error("this renderer was made without a scene");
+    return renderRaytraced(*state_->scene, state_->environment, shot, options);
+  }
   const auto technique = techniqueOf(options);
   const DofInputs inputs = state_->sceneInputs(shot);
   if (options.fixedRoom) {
@@ -226,7 +232,7 @@ std::vector<std::string> RendererState::warningsOf(const Shot& shot, const passe
   } else if (shot.faces == engine::DrawnFaces::material) {
     add(backFacesWarning(rendering.color, shot.background, *scene));
   }
-  if (shot.shading == Shading::lit) add(unlitSceneWarning(*scene, hasEnvironment));
+  if (shot.shading == Shading::lit) add(unlitSceneWarning(*scene, environment.has_value()));
   add(listRoomWarning(rendering.statistics));
   add(limitedBlurWarning(rendering.statistics.clampedCoc, shot.lens, technique, parameters, shot.height));
   return warnings;

@@ -1,6 +1,7 @@
 // What a rendering is asked for, and what it returns.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -38,7 +39,7 @@ struct Tapped {
   std::vector<rendergraph::TapChoice> choices;  ///< Every image that could have been tapped.
 };
 
-/// Done executions and their number; called between executions.
+/// Done executions and their number; called between executions. Of `raytraced`: parts of the work.
 using Progress = std::function<void(uint32_t done, uint32_t total)>;
 
 /// A picture of a progressive technique before it is finished: after how many of its executions, and the picture.
@@ -68,6 +69,8 @@ struct RenderOptions {
   std::optional<ListRoom> fixedRoom;
   /// Called with the capture of each execution, if set.
   std::function<void(const rendergraph::Capture&)> observe;
+  /// Of `raytraced` alone: a file in which the state is kept, and from which an interrupted rendering goes on; empty: none.
+  std::filesystem::path checkpoint;
 };
 
 }  // namespace lensgraph::host

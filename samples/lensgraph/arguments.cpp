@@ -128,6 +128,9 @@ Action addRender(CLI::App& app) {
   addExposure(*sub, a->exposureEv);
   addInspection(*sub, a->inspection);
   sub->add_option("--depth-out", a->depthOut, "Write view depth in metres")->type_name("FILE.exr");
+  sub->add_option("--checkpoint", a->checkpoint,
+                  "Of raytraced: keep what is done in this file, and go on from it when it is there")
+      ->type_name("FILE");
   sub->add_option("-o,--output", a->output, "Picture to write: .exr, .png or .hdr")->type_name("OUT");
   return [a](const GlobalArguments& global) {
     requireOutput("render", a->output, a->inspection);

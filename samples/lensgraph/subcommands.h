@@ -52,7 +52,8 @@ struct RenderArguments {
   std::optional<double> exposureEv;         ///< PNG only.
   InspectionArguments inspection;
   std::optional<std::filesystem::path> depthOut;
-  std::filesystem::path output;  ///< Empty: none asked for.
+  std::optional<std::filesystem::path> checkpoint;  ///< Of raytraced: kept state, from which it goes on.
+  std::filesystem::path output;                     ///< Empty: none asked for.
 };
 int runRender(const RenderArguments& arguments, const GlobalArguments& global);
 

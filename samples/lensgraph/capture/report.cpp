@@ -52,15 +52,15 @@ void printJson(const Report& report, const std::vector<std::string>& warnings) {
 }
 
 void printTimes(const Report& report) {
-  const auto median = [](const std::vector<double>& times) { return rendergraph::spreadOf(times).median; };
-  const auto count = report.warm.cpuMs.size();
-  if (count == 0) {
-    std::printf("time       GPU %.2f ms, wall %.2f ms, CPU %.2f ms\n", report.rendering.gpuMs, report.rendering.wallMs,
-                report.rendering.cpuMs);
-  } else {
-    std::printf("time       GPU %.2f ms, wall %.2f ms, CPU %.2f ms (median of %zu warm frames)\n",
-                median(report.warm.gpuMs), median(report.warm.wallMs), median(report.warm.cpuMs), count);
-  }
+  FrameTimes times = report.warm;
+  const auto count = times.cpuMs.size();
+  if (count == 0) times.add(report.rendering);
+  const auto median = [](const std::vector<double>& samples) { return rendergraph::spreadOf(samples).median; };
+  std::printf("time       ");
+  if (report.rendering.executions > 0) std::printf("GPU %.2f ms, ", median(times.gpuMs));  // Else no device took part.
+  std::printf("wall %.2f ms, CPU %.2f ms", median(times.wallMs), median(times.cpuMs));
+  if (count > 0) std::printf(" (median of %zu warm frames)", count);
+  std::printf("\n");
   constexpr double kBytesPerMegabyte = 1e6;
   std::printf("memory     graph %.1f MB, process %.0f MB\n",
               static_cast<double>(report.rendering.graphBytes) / kBytesPerMegabyte,

@@ -60,8 +60,13 @@ const Directions kDirections = {
     {"engine/gltf", {"engine", "engine/scene", "engine/gltf/*"}},
     {"engine/draw", {"engine", "engine/graph", "engine/image", "engine/scene", "engine/vulkan", kGraph, kShared}},
 
-    {"samples/host", {"engine", "engine/*", "passes", "passes/*", "samples/host/limits", kGraph, kShared}},
+    // Rays and shading of its own: of the drawing it sees the environment map's data alone.
+    {"engine/raytracer", {"engine", "engine/draw", "engine/files", "engine/image", "engine/scene"}},
+
+    {"samples/host",
+     {"engine", "engine/*", "passes", "passes/*", "samples/host/limits", "samples/host/raytraced", kGraph, kShared}},
     {"samples/host/measures", {"engine", "engine/*", "passes", "passes/*", "samples/host", kGraph, kShared}},
+    {"samples/host/raytraced", {"engine/raytracer", "passes", "passes/lens"}},
     {"samples/host/limits", {"engine", "passes", kGraph, kShared}},
     {"samples/lensgraph", {"engine", "engine/*", "passes", "passes/*", "samples/host", kGraph, kShared}},
     {"samples/lensgraph/compare",
