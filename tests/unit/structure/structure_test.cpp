@@ -69,6 +69,7 @@ const Directions kDirections = {
     {"samples/host/raytraced", {"engine/raytracer", "passes", "passes/lens"}},
     {"samples/host/limits", {"engine", "passes", kGraph, kShared}},
     {"samples/lensgraph", {"engine", "engine/*", "passes", "passes/*", "samples/host", kGraph, kShared}},
+    {"samples/lensgraph/arguments", {"engine", "passes", "samples/host", "samples/lensgraph"}},
     {"samples/lensgraph/compare",
      {"engine", "engine/*", "samples/host", "samples/host/measures", "samples/lensgraph", kGraph, kShared}},
     {"samples/lensgraph/capture",
