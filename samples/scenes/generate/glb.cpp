@@ -128,7 +128,11 @@ int Glb::addMaterial(const Material& material) {
       {"metallicFactor", material.metallic},
       {"roughnessFactor", material.roughness}};
   if (material.texture >= 0) surface["baseColorTexture"] = {{"index", material.texture}};
+  if (material.metallicRoughnessTexture >= 0) {
+    surface["metallicRoughnessTexture"] = {{"index", material.metallicRoughnessTexture}};
+  }
   Json json = {{"name", material.name}, {"pbrMetallicRoughness", surface}};
+  if (material.normalTexture >= 0) json["normalTexture"] = {{"index", material.normalTexture}};
   if (material.alphaMode == AlphaMode::blend) json["alphaMode"] = "BLEND";
   if (material.alphaMode == AlphaMode::mask) {
     json["alphaMode"] = "MASK";

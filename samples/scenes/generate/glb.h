@@ -38,6 +38,8 @@ struct Material {
   glm::vec3 emissive{0.0f};
   float emissiveStrength = 1.0f;
   int emissiveTexture = -1;
+  int normalTexture = -1;             ///< Tangent space, as glTF wants it.
+  int metallicRoughnessTexture = -1;  ///< G: roughness, B: metallic; the factors above are multiplied in.
 };
 
 /// Which attributes a mesh is written with, beside positions.
