@@ -162,7 +162,7 @@ Mesh makeRailing(float width, float height, int bars, int detail) {
   for (const glm::vec2 point : shape) profile.emplace_back(point.x, point.y * height);
   const Mesh bar = makeLathe(profile, sides);
   const float step = width / static_cast<float>(bars);
-  const Mesh ring = makeTorus(step * 0.44f, 0.0045f, 12 + 6 * detail, sides);
+  const Mesh ring = makeTorus(step * 0.44f, 0.0045f, 10 + 6 * detail, 4 + 2 * detail);
   for (int i = 0; i < bars; ++i) {
     const float x = -width * 0.5f + step * (static_cast<float>(i) + 0.5f);
     append(mesh, transformed(bar, glm::translate(glm::mat4(1.0f), {x, 0, 0})));
@@ -172,7 +172,7 @@ Mesh makeRailing(float width, float height, int bars, int detail) {
     }
   }
   for (const float share : {0.03f, 0.8f, 1.0f}) {
-    const float radius = share == 1.0f ? 0.022f : 0.009f;
+    const float radius = share == 1.0f ? 0.026f : 0.011f;
     const std::array<TubePoint, 2> rail = {TubePoint{{-width * 0.5f, share * height, 0}, radius},
                                            TubePoint{{width * 0.5f, share * height, 0}, radius}};
     append(mesh, makeTube(rail, sides + 2));

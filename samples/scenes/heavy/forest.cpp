@@ -63,7 +63,7 @@ ForestMaterials addMaterials(Glb& glb) {
   const int barkColor = glb.addTexture("bark", bark.color, Wrap::repeat);
   const int barkNormal = glb.addTexture("bark normals", bark.normal, Wrap::repeat);
   const int barkRoughness = glb.addTexture("bark roughness", bark.metallicRoughness, Wrap::repeat);
-  const std::array<float, kBands> shares = {1.0f, 0.78f, 0.5f};
+  const std::array<float, kBands> shares = {1.0f, 0.86f, 0.6f};
   for (size_t i = 0; i < kBands; ++i) {
     const std::string suffix = " " + std::to_string(i);
     m.bands[i].leaf = glb.addMaterial(hazed({.name = "leaf" + suffix,
@@ -102,7 +102,7 @@ glm::quat turned(float yaw) {
 }
 
 void addGround(Glb& glb, const ForestMaterials& materials) {
-  Mesh ground = makeRectangle({0, 0, -29.0f}, {34, 0, 0}, {0, 0, -32.0f}, glm::vec2(1.0f), {260, 240});
+  Mesh ground = makeRectangle({0, 0, -29.0f}, {34, 0, 0}, {0, 0, -32.0f}, glm::vec2(1.0f), {190, 180});
   for (Vertex& vertex : ground.vertices) {
     glm::vec3& p = vertex.position;
     p.y = groundAt(p.x, p.z);
@@ -135,6 +135,7 @@ void addTrees(Glb& glb, const ForestMaterials& materials) {
                                                      .bareShare = 0.20f,
                                                      .branches = 17,
                                                      .leaves = 13,
+                                                     .leafSize = 0.18f,
                                                      .spread = 0.34f,
                                                      .leafTint = {0.46f, 0.66f, 0.22f}},
                                            TreeShape{.height = 11.0f,
@@ -142,6 +143,7 @@ void addTrees(Glb& glb, const ForestMaterials& materials) {
                                                      .bareShare = 0.26f,
                                                      .branches = 18,
                                                      .leaves = 13,
+                                                     .leafSize = 0.18f,
                                                      .spread = 0.32f,
                                                      .leafTint = {0.36f, 0.56f, 0.18f}},
                                            TreeShape{.height = 8.0f,
@@ -149,6 +151,7 @@ void addTrees(Glb& glb, const ForestMaterials& materials) {
                                                      .bareShare = 0.18f,
                                                      .branches = 16,
                                                      .leaves = 13,
+                                                     .leafSize = 0.18f,
                                                      .spread = 0.36f,
                                                      .leafTint = {0.62f, 0.70f, 0.24f}},
                                            TreeShape{.height = 3.2f,
@@ -167,7 +170,7 @@ void addTrees(Glb& glb, const ForestMaterials& materials) {
     crowns.push_back(addBanded(glb, "crown", tree.leaves, materials, &Band::leaf, kTinted));
   }
   std::vector<glm::vec2> taken;
-  while (taken.size() < 76) {
+  while (taken.size() < 86) {
     const float z = random.between(-44.0f, -4.2f);
     const float x = random.between(-1.0f, 1.0f) * (3.0f - 0.72f * z);
     // A glade around the stump, and a way that leads away from it.
@@ -208,7 +211,7 @@ void addUndergrowth(Glb& glb, const ForestMaterials& materials) {
   std::vector<Banded> ferns, grasses, litters;
   for (int i = 0; i < 4; ++i) {
     const float light = i < 2 ? 1.0f : 0.42f;  // The latter two stand in the shade.
-    Mesh fern = makeFern(0.75f, 10 + i % 2 * 2, 24, random);
+    Mesh fern = makeFern(0.66f, 10 + i % 2 * 2, 21, random);
     Mesh grass = makeGrass(0.34f, 70, random);
     shade(fern, light);
     shade(grass, light);
@@ -229,7 +232,7 @@ void addUndergrowth(Glb& glb, const ForestMaterials& materials) {
       place(at, sunAt(x, z) > 0.5f, bandOf(-z), random.next() % 2);
     }
   };
-  scatter(190, 30.0f, 1.3f, [&](const Placement& at, bool inSun, size_t band, uint32_t kind) {
+  scatter(170, 30.0f, 1.2f, [&](const Placement& at, bool inSun, size_t band, uint32_t kind) {
     const glm::vec2 fromStump = glm::vec2(at.translation.x, at.translation.z) - kStump;
     // The stump is to be seen.
     if (glm::length(fromStump) < 0.75f || (fromStump.y > 0.0f && std::abs(fromStump.x) < 0.7f)) return;
@@ -324,7 +327,7 @@ HeavyScene makeForest() {
   shot.name = heavy.name;
   shot.description = "a wood in the morning: mushrooms in focus at 3.4 m, fern and branch close, trees far";
   shot.camera = {.position = {0.0f, 0.95f, 0.0f}, .target = {0.05f, 0.78f, -3.5f}, .fovyDeg = 36.0f};
-  shot.lens = {.apertureRadius = 0.09, .focusDistance = 3.4};
+  shot.lens = {.apertureRadius = 0.066, .focusDistance = 3.4};
   shot.background = {0.7, 0.75, 0.6};
   shot.lit = true;
   shot.environment = heavy.name + "_sky.exr";

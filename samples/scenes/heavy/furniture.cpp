@@ -225,25 +225,26 @@ LightString makeLightString(glm::vec3 from, glm::vec3 to, float sag, int bulbs) 
   return string;
 }
 
-Mesh makeCobblePatch(Random& random) {
+Mesh makeCobblePatch(glm::vec2 corner, const std::function<float(glm::vec2)>& lightAt, Random& random) {
   Mesh patch;
   constexpr int kStones = 8;
   constexpr float kPitch = 1.0f / kStones;
   for (int row = 0; row < kStones; ++row) {
     for (int column = 0; column < kStones; ++column) {
-      // Every second row is shifted by half a stone, half out of the patch, where its neighbour has the gap.
-      const float x = (static_cast<float>(column) + (row % 2 == 0 ? 0.25f : 0.75f)) * kPitch;
-      const float z = (static_cast<float>(row) + 0.5f) * kPitch;
+      // Every second row is shifted by half a stone, half out of the patch, where its neighbor has the gap.
+      const float x = corner.x + (static_cast<float>(column) + (row % 2 == 0 ? 0.25f : 0.75f)) * kPitch;
+      const float z = corner.y - (static_cast<float>(row) + 0.5f) * kPitch;
       const glm::vec3 half(kPitch * random.between(0.46f, 0.5f), random.between(0.010f, 0.018f),
                            kPitch * random.between(0.46f, 0.5f));
-      Mesh stone = makeStone(random, half, 0.03f, 5);
-      const float tone = random.between(0.6f, 1.0f);
-      stone = colored(
-          stone,
-          glm::vec4(glm::vec3(tone) * glm::vec3(1.0f, random.between(0.94f, 1.0f), random.between(0.86f, 1.0f)), 1.0f));
+      Mesh stone = transformed(makeStone(random, half, 0.03f, 4), shifted({x, random.between(-0.004f, 0.004f), z}));
+      const glm::vec3 tone =
+          random.between(0.6f, 1.0f) * glm::vec3(1.0f, random.between(0.94f, 1.0f), random.between(0.86f, 1.0f));
       const glm::vec2 shift(random.unit(), random.unit());
-      for (Vertex& vertex : stone.vertices) vertex.uv = vertex.uv * 0.3f + shift;
-      append(patch, transformed(stone, shifted({x, random.between(-0.004f, 0.004f), -z})));
+      for (Vertex& vertex : stone.vertices) {
+        vertex.color = glm::vec4(tone * lightAt({vertex.position.x, vertex.position.z}), 1.0f);
+        vertex.uv = vertex.uv * 0.3f + shift;
+      }
+      append(patch, stone);
     }
   }
   return patch;

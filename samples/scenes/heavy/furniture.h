@@ -2,6 +2,8 @@
 // the origin unless it says otherwise; meshes that several materials need come in parts.
 #pragma once
 
+#include <functional>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <string>
 #include <vector>
@@ -51,7 +53,8 @@ struct LightString {
 };
 LightString makeLightString(glm::vec3 from, glm::vec3 to, float sag, int bulbs);
 
-/// Square metre of cobbles, [0, 1]² in X and −Z, 8 × 8 stones; stone tones are in the vertex colors.
-Mesh makeCobblePatch(Random& random);
+/// A square metre of cobbles, 8 × 8 stones, from its corner on towards +X and −Z. lightAt: share of the light that
+/// arrives at (x, z); it and the stones' tones are in the vertex colors.
+Mesh makeCobblePatch(glm::vec2 corner, const std::function<float(glm::vec2)>& lightAt, Random& random);
 
 }  // namespace scenes

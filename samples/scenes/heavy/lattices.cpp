@@ -34,7 +34,7 @@ void forEachCell(const LatticeArea& area, glm::vec2 cell, const std::function<vo
 Mesh makeBeadCurtain(const LatticeArea& area, float coverage, Random& random) {
   Mesh curtain;
   const float diameter = coverage * area.pitch;
-  const Mesh bead = makeSphere(8, 10);
+  const Mesh bead = makeSphere(5, 7);
   const float shift = random.between(-0.5f, 0.5f) * area.pitch;
   forEachCell(area, {area.pitch, diameter * 1.02f}, [&](glm::vec2 middle) {
     const float sway = 0.1f * area.pitch * std::sin(middle.x * 40.0f / area.pitch);
@@ -68,7 +68,7 @@ Mesh makeRingScreen(const LatticeArea& area, float coverage) {
   // A ring of radii R and r covers 4 π R r of its cell.
   const float major = 0.5f - coverage * 0.08f;
   const float minor = coverage / (4.0f * glm::pi<float>() * major);
-  const Mesh ring = makeTorus(major * area.pitch, minor * area.pitch, 20, 8);
+  const Mesh ring = makeTorus(major * area.pitch, minor * area.pitch, 16, 5);
   forEachCell(area, glm::vec2(area.pitch), [&](glm::vec2 middle) { append(screen, transformed(ring, at(middle))); });
   return screen;
 }
@@ -80,8 +80,8 @@ Mesh makeTurnedGrille(const LatticeArea& area, float coverage) {
       glm::vec2(r * 0.7f, -0.5f * p), {r * 0.7f, -0.40f * p}, {r * 1.3f, -0.36f * p},
       {r * 0.8f, -0.30f * p},         {r * 1.25f, 0.0f},      {r * 0.8f, 0.30f * p},
       {r * 1.3f, 0.36f * p},          {r * 0.7f, 0.40f * p},  {r * 0.7f, 0.5f * p}};
-  const Mesh bar = makeLathe(profile, 8);
-  const Mesh ball = makeSphere(6, 8);
+  const Mesh bar = makeLathe(profile, 6);
+  const Mesh ball = makeSphere(5, 6);
   forEachCell(area, glm::vec2(p), [&](glm::vec2 middle) {
     append(grille, transformed(bar, at(middle + glm::vec2(0.5f * p, 0.0f))));
     append(grille,

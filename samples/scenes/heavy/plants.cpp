@@ -80,6 +80,33 @@ Mesh barkTube(std::span<const TubePoint> path, int sides, float around) {
   return tube;
 }
 
+/// One side leaf of a fern's frond.
+struct Leaflet {
+  glm::vec3 at;
+  glm::vec3 forward;  ///< Of the frond.
+  float size;         ///< m
+  glm::vec3 color;
+};
+
+/// side: +1 or −1, which side of the frond. A narrow kite with a raised rib and a tip that droops.
+void addLeaflet(Mesh& fern, const Leaflet& leaflet, float side, Random& random) {
+  const glm::vec3 across = glm::normalize(glm::cross(leaflet.forward, glm::vec3(0, 1, 0)) + glm::vec3(1e-4f, 0, 0));
+  const glm::vec3 upper = glm::normalize(glm::cross(across, leaflet.forward));
+  const glm::vec3 lift = upper * random.between(-0.35f, 0.15f);
+  const glm::vec3 way = glm::normalize(across * side + leaflet.forward * 0.4f + lift);
+  const glm::vec3 width = glm::normalize(glm::cross(upper, way)) * leaflet.size * 0.062f;
+  const glm::vec3 middle = leaflet.at + way * leaflet.size * 0.35f;
+  const std::array<glm::vec3, 5> points = {leaflet.at, middle + width, middle - width,
+                                           middle + way * leaflet.size * 0.15f + upper * leaflet.size * 0.05f,
+                                           leaflet.at + way * leaflet.size - upper * leaflet.size * 0.14f};
+  Mesh kite;
+  const glm::vec4 color(leaflet.color * random.between(0.75f, 1.2f), 1.0f);
+  for (const glm::vec3 point : points) kite.vertices.push_back({point, upper, {0.5f, 0.5f}, color});
+  kite.indices = {0, 3, 1, 0, 2, 3, 1, 3, 4, 2, 4, 3};
+  smoothNormals(kite);
+  append(fern, kite);
+}
+
 }  // namespace
 
 Plant makeTree(const TreeShape& shape, Random& random) {
@@ -153,34 +180,21 @@ Mesh makeFern(float length, int fronds, int leafletPairs, Random& random) {
     const float angle =
         glm::two_pi<float>() * (static_cast<float>(i) + random.between(-0.3f, 0.3f)) / static_cast<float>(fronds);
     const glm::vec3 out(std::cos(angle), 0, std::sin(angle));
-    const float reach = length * random.between(0.75f, 1.1f);
-    const std::vector<TubePoint> rachis = grow({out * 0.02f, out * 0.55f + glm::vec3(0, 1.0f, 0), reach, 0.005f, 0.04f,
-                                                out * 0.1f + glm::vec3(0, -0.12f, 0), 14},
-                                               random);
-    append(fern, colored(makeTube(rachis, 4), {0.30f, 0.30f, 0.10f, 1}));
-    const float tone = random.between(0.75f, 1.1f);
+    const float reach = length * random.between(0.7f, 1.1f);
+    const glm::vec3 pull = out * 0.07f + glm::vec3(0, random.between(-0.12f, -0.05f), 0);
+    const std::vector<TubePoint> rachis =
+        grow({out * 0.02f, out * 0.5f + glm::vec3(0, 1.0f, 0), reach, 0.005f, 0.05f, pull, 12}, random);
+    append(fern, colored(makeTube(rachis, 4), {0.26f, 0.24f, 0.08f, 1}));
+    const float tone = random.between(0.65f, 1.15f);
     for (int j = 0; j < leafletPairs; ++j) {
       const float t = 0.16f + 0.82f * static_cast<float>(j) / static_cast<float>(leafletPairs);
-      const glm::vec3 forward = directionAt(rachis, t);
-      const glm::vec3 side = glm::normalize(glm::cross(forward, glm::vec3(0, 1, 0)) + glm::vec3(1e-4f, 0, 0));
-      const float size = reach * 0.26f * std::sin(glm::pi<float>() * std::pow(1.0f - 0.93f * t, 0.8f) * 0.95f + 0.06f);
-      const glm::vec3 upper = glm::normalize(glm::cross(side, forward));
-      for (const float sign : {-1.0f, 1.0f}) {
-        const glm::vec3 way =
-            glm::normalize(side * sign + forward * 0.35f + glm::vec3(0, random.between(-0.25f, 0.05f), 0));
-        const glm::vec3 across = glm::normalize(glm::cross(upper, way)) * size * 0.16f;
-        const glm::vec3 at = along(rachis, t).position;
-        Mesh leaflet;
-        const std::array<glm::vec3, 5> points = {at, at + way * size * 0.35f + across, at + way * size * 0.35f - across,
-                                                 at + way * size * 0.5f + upper * size * 0.05f,
-                                                 at + way * size - upper * size * 0.12f};
-        for (const glm::vec3 point : points) leaflet.vertices.push_back({point, upper, {0.5f, 0.5f}, glm::vec4(1.0f)});
-        leaflet.indices = {0, 3, 1, 0, 2, 3, 1, 3, 4, 2, 4, 3};
-        smoothNormals(leaflet);
-        const glm::vec3 green =
-            glm::vec3(0.28f, 0.42f, 0.10f) * tone * glm::mix(0.55f, 1.15f, t) * random.between(0.85f, 1.15f);
-        append(fern, colored(leaflet, glm::vec4(green, 1.0f)));
-      }
+      const float taper = std::sin(glm::pi<float>() * std::pow(1.0f - 0.93f * t, 0.8f) * 0.95f + 0.06f);
+      const Leaflet leaflet{.at = along(rachis, t).position,
+                            .forward = directionAt(rachis, t),
+                            .size = reach * 0.27f * taper,
+                            .color = glm::vec3(0.30f, 0.42f, 0.10f) * tone * glm::mix(0.45f, 1.2f, t)};
+      addLeaflet(fern, leaflet, 1.0f, random);
+      addLeaflet(fern, leaflet, -1.0f, random);
     }
   }
   return fern;

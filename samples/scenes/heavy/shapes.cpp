@@ -75,15 +75,15 @@ Mesh makeStone(Random& random, glm::vec3 halfSize, float sunk, int divisions) {
 
 Mesh makeFoldedLeaf(float length, float width, float fold, float droop) {
   Mesh mesh;
-  for (int row = 0; row < 3; ++row) {
-    const float t = static_cast<float>(row) * 0.5f;
+  for (int row = 0; row < 2; ++row) {
+    const float t = static_cast<float>(row);
     for (int column = 0; column < 3; ++column) {
       const float side = static_cast<float>(column - 1);
-      const glm::vec3 position(side * width * 0.5f, t * length, length * (fold * std::abs(side) - droop * t * t));
+      const glm::vec3 position(side * width * 0.5f, t * length, length * (fold * std::abs(side) - droop * t));
       mesh.vertices.push_back({position, {0, 0, 1}, {0.5f + 0.5f * side, 1.0f - t}, glm::vec4(1.0f)});
     }
   }
-  for (const uint32_t a : {0u, 1u, 3u, 4u}) {
+  for (const uint32_t a : {0u, 1u}) {
     mesh.indices.insert(mesh.indices.end(), {a, a + 1, a + 4, a, a + 4, a + 3});
   }
   smoothNormals(mesh);

@@ -29,7 +29,7 @@ void smoothNormals(Mesh& mesh);
 /// A cobble or pebble without its underside: domed top of the given half size, its rim `sunk` below y = 0.
 Mesh makeStone(Random& random, glm::vec3 halfSize, float sunk, int divisions);
 
-/// A leaf folded along its rib, eight triangles: from the stalk along +Y, its upper side facing +Z. fold: how far the
+/// A leaf folded along its rib, four triangles: from the stalk along +Y, its upper side facing +Z. fold: how far the
 /// edges rise and droop: how far the tip hangs back, as shares of the length.
 Mesh makeFoldedLeaf(float length, float width, float fold, float droop);
 

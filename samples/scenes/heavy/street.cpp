@@ -1,7 +1,10 @@
 // An old street in the last sun: houses with balconies, cobbles, lamps, trees, strings of bulbs. In focus at 3.5 m stands
 // a café's board beside a lantern; a railing and a branch are close to the lens.
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <string>
@@ -21,6 +24,7 @@ constexpr float kHalfWidth = 4.5f;      // m, to the houses
 constexpr float kRoadHalfWidth = 3.0f;  // m, to the kerb
 constexpr int kCobbledLength = 14;      // m of real stones; beyond them a texture.
 constexpr float kLength = 46.0f;        // m
+const glm::vec3 kTowardsSun(0.8f, 0.7f, 0.9f);
 constexpr Attributes kTextured{.normals = true, .uvs = true};
 constexpr Attributes kTinted{.normals = true, .uvs = true, .colors = true};
 
@@ -60,7 +64,7 @@ StreetMaterials addMaterials(Glb& glb) {
     return glb.addMaterial(
         {.name = name, .baseColor = {0, 0, 0, 1}, .unlit = false, .emissive = color, .emissiveStrength = strength});
   };
-  m.bulb = glowing("bulb", {1.0f, 0.72f, 0.36f}, 60.0f);
+  m.bulb = glowing("bulb", {1.0f, 0.66f, 0.30f}, 22.0f);
   m.lamp = glowing("lamp", {1.0f, 0.70f, 0.38f}, 18.0f);
   return m;
 }
@@ -98,7 +102,7 @@ void addHouses(Glb& glb, const StreetMaterials& materials) {
                         .paint = paints[(i + (isLeft ? 0u : 2u)) % 3],
                         .bays = count,
                         .floors = 3,
-                        .balconyShare = 0.4f};
+                        .balconyShare = 0.28f};
       const Placement at =
           isLeft ? Placement{.translation = {-kHalfWidth, 0, z}, .rotation = turned(glm::half_pi<float>())}
                  : Placement{.translation = {kHalfWidth, 0, z - length}, .rotation = turned(-glm::half_pi<float>())};
@@ -116,17 +120,46 @@ void addHouses(Glb& glb, const StreetMaterials& materials) {
   addHouse(glb, parts, end, {.translation = {-2.0f * kBayWidth, 0, -kLength + 4.0f}}, random);
 }
 
+/// Something that keeps the sun from the ground: a foot, and a shadow that runs from it as wide as it is.
+struct Blocker {
+  glm::vec2 at;
+  float radius;  ///< m
+  float height;  ///< m
+};
+
+/// Share of the light that reaches the ground. Nothing else casts shadows, so those that matter are in vertex colors.
+float lightOnGround(glm::vec2 point) {
+  static constexpr std::array<Blocker, 8> kBlockers = {
+      Blocker{{0.28f, -3.45f}, 0.24f, 0.42f}, {{-0.42f, -3.60f}, 0.26f, 1.1f}, {{-0.22f, -3.64f}, 0.22f, 1.1f},
+      {{-0.60f, -3.56f}, 0.22f, 1.1f},        {{0.72f, -3.75f}, 0.2f, 0.8f},   {{3.45f, -6.5f}, 0.07f, 3.4f},
+      {{3.45f, -15.5f}, 0.07f, 3.4f},         {{3.6f, -13.0f}, 0.55f, 4.5f}};
+  const glm::vec3 towardsSun = glm::normalize(kTowardsSun);
+  const glm::vec2 across(towardsSun.x, towardsSun.z);
+  float light = 1.0f;
+  for (const Blocker& blocker : kBlockers) {
+    const glm::vec2 shadow = -across * (blocker.height / towardsSun.y);
+    const float t = glm::clamp(glm::dot(point - blocker.at, shadow) / glm::dot(shadow, shadow), 0.0f, 1.0f);
+    const float distance = glm::length(point - blocker.at - shadow * t);
+    const float blur = 0.04f + 0.12f * t;
+    light =
+        std::min(light, glm::mix(0.42f, 1.0f, glm::smoothstep(blocker.radius - blur, blocker.radius + blur, distance)));
+    light *= glm::mix(0.6f, 1.0f,
+                      glm::smoothstep(0.8f * blocker.radius, 1.5f * blocker.radius, glm::length(point - blocker.at)));
+  }
+  return light * glm::mix(0.55f, 1.0f, glm::smoothstep(0.0f, 0.35f, kRoadHalfWidth - std::abs(point.x)));
+}
+
 void addGround(Glb& glb, const StreetMaterials& materials) {
   Random random(99);
-  std::vector<int> patches;
   const int stone = addSurface(glb, "cobbles", graniteRelief(12));
-  for (int i = 0; i < 4; ++i) patches.push_back(glb.addMesh("cobbles", makeCobblePatch(random), stone, kTinted));
   const int across = static_cast<int>(2.0f * kRoadHalfWidth);
   for (int row = 0; row < kCobbledLength; ++row) {
+    Mesh cobbles;
     for (int column = 0; column < across; ++column) {
-      const glm::vec3 at(static_cast<float>(column) - kRoadHalfWidth, 0, 1.0f - static_cast<float>(row));
-      glb.addNode("cobbles", patches[random.next() % patches.size()], {.translation = at});
+      const glm::vec2 corner(static_cast<float>(column) - kRoadHalfWidth, 1.0f - static_cast<float>(row));
+      append(cobbles, makeCobblePatch(corner, lightOnGround, random));
     }
+    glb.add("cobbles", cobbles, stone, kTinted);
   }
   const float end = 1.0f - static_cast<float>(kCobbledLength);
   const float farHalf = (end + kLength) * 0.5f;
@@ -167,11 +200,11 @@ void addLamps(Glb& glb, const StreetMaterials& materials) {
   const Mesh bulb = makeSphere(8, 10);
   const int bulbs = glb.addMesh("bulb", bulb, materials.bulb, {.normals = true});
   Mesh cords;
-  for (int i = 0; i < 7; ++i) {
-    const float z = -6.0f - 3.6f * static_cast<float>(i);
-    const LightString string = makeLightString({-kHalfWidth, 4.3f, z}, {kHalfWidth, 4.5f, z - 2.0f}, 0.85f, 16);
+  for (int i = 0; i < 5; ++i) {
+    const float z = -5.0f - 5.2f * static_cast<float>(i);
+    const LightString string = makeLightString({-kHalfWidth, 4.3f, z}, {kHalfWidth, 4.5f, z - 2.0f}, 0.85f, 11);
     append(cords, string.cord);
-    for (const glm::vec3 at : string.bulbs) glb.addNode("bulb", bulbs, {.translation = at, .scale = 0.035f});
+    for (const glm::vec3 at : string.bulbs) glb.addNode("bulb", bulbs, {.translation = at, .scale = 0.04f});
   }
   glb.add("cords", cords, materials.iron, kTextured);
 }
@@ -279,15 +312,16 @@ void addSubject(Glb& glb, const StreetMaterials& materials) {
   glb.add("bush", bush.leaves, materials.leaf, kTinted);
 }
 
-/// What is close to the lens: a railing at the right, a branch at the upper left.
+/// What is close to the lens: a railing at the right, a branch in autumn at the upper left.
 void addNear(Glb& glb, const StreetMaterials& materials) {
-  Mesh railing = makeRailing(1.6f, 1.05f, 13, 4);
+  Mesh railing = makeRailing(1.5f, 0.86f, 10, 4);
   scaleUv(railing, {1.0f, 3.0f});
-  glb.addNode("near railing", glb.addMesh("near railing", railing, materials.iron, kTextured),
-              {.translation = {1.18f, 0.0f, -1.45f}, .rotation = turned(0.35f)});
+  const int paint = addSurface(glb, "railing paint", ironRelief({0.86f, 0.84f, 0.78f}, 22));
+  glb.addNode("near railing", glb.addMesh("near railing", railing, paint, kTextured),
+              {.translation = {1.34f, 0.0f, -1.8f}, .rotation = turned(0.18f), .scale = 1.2f});
   Random random(6);
-  const Plant branch = makeBranch(1.0f, 0.09f, 12, 7, {0.42f, 0.58f, 0.18f}, random);
-  const Placement at{.translation = {-0.98f, 1.63f, -1.28f}, .rotation = turned(0.15f)};
+  const Plant branch = makeBranch(1.0f, 0.12f, 12, 7, {0.95f, 0.36f, 0.07f}, random);
+  const Placement at{.translation = {-0.98f, 1.60f, -1.28f}, .rotation = turned(0.15f)};
   glb.addNode("near branch", glb.addMesh("near branch", branch.wood, materials.bark, kTextured), at);
   glb.addNode("near leaves", glb.addMesh("near leaves", branch.leaves, materials.leaf, kTinted), at);
 }
@@ -312,14 +346,14 @@ HeavyScene makeStreet() {
   addSubject(glb, materials);
   addNear(glb, materials);
   addSkyDome(glb, heavy.sky, 150.0f);
-  glb.addLight({.name = "sun", .type = "directional", .color = {1.0f, 0.74f, 0.48f}, .intensity = 1.6f},
-               {0.8f, 0.7f, 0.9f}, glm::vec3(0.0f));
+  glb.addLight({.name = "sun", .type = "directional", .color = {1.0f, 0.74f, 0.48f}, .intensity = 1.6f}, kTowardsSun,
+               glm::vec3(0.0f));
 
   Shot shot;
   shot.name = heavy.name;
   shot.description = "a street in the evening: board in focus at 3.5 m, railing and branch close, lamps far";
   shot.camera = {.position = {0.30f, 1.25f, 0.0f}, .target = {0.02f, 1.02f, -3.5f}, .fovyDeg = 36.0f};
-  shot.lens = {.apertureRadius = 0.09, .focusDistance = 3.5};
+  shot.lens = {.apertureRadius = 0.066, .focusDistance = 3.5};
   shot.background = {0.5, 0.4, 0.35};
   shot.lit = true;
   shot.environment = heavy.name + "_sky.exr";

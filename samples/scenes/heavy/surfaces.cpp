@@ -95,8 +95,8 @@ Relief cobbleRelief(uint32_t seed) {
     return 0.9f * bodyOf(cell.inside, glm::vec2(0.03f), glm::vec2(0.25f)) + 0.1f * clouds(p, 32, seed, 2);
   };
   relief.color = [=](glm::vec2 p, float height) {
-    const float tone = 0.85f + 0.3f * toneOf(cellOf(p, count).index, seed + 9);
-    return glm::mix(glm::vec3(0.24f, 0.22f, 0.20f), glm::vec3(0.52f, 0.50f, 0.48f) * tone,
+    const float tone = 0.92f + 0.16f * toneOf(cellOf(p, count).index, seed + 9);
+    return glm::mix(glm::vec3(0.34f, 0.32f, 0.30f), glm::vec3(0.50f, 0.48f, 0.46f) * tone,
                     glm::smoothstep(0.1f, 0.5f, height));
   };
   relief.roughness = [=](glm::vec2, float height) { return rough(0.6f, 0.4f, 1.0f - height); };
@@ -157,7 +157,7 @@ Relief brassRelief(uint32_t seed) {
   relief.metallic = 1.0f;
   relief.height = [=](glm::vec2 p) { return clouds(p, 8, seed, 3); };
   relief.color = [=](glm::vec2, float height) { return glm::vec3(0.94f, 0.78f, 0.48f) * (0.75f + 0.3f * height); };
-  relief.roughness = [=](glm::vec2, float height) { return rough(0.30f, 0.3f, 1.0f - height); };
+  relief.roughness = [=](glm::vec2, float height) { return rough(0.42f, 0.24f, 1.0f - height); };
   return relief;
 }
 
