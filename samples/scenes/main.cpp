@@ -67,9 +67,9 @@ void writeAll(const std::filesystem::path& folder) {
 
 /// One after another, so that no two are in memory.
 void writeHeavy(const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
   for (scenes::HeavyScene (*make)() : {scenes::makeStreet, scenes::makeForest, scenes::makeDeep}) {
     const scenes::HeavyScene heavy = make();
-    std::filesystem::create_directories(folder);
     scenes::writeSky(folder / (heavy.name + "_sky.exr"), heavy.sky);
     write(heavy.scene, folder, heavy.name + ".glb");
     const scenes::DepthComplexity depth = depthComplexityOf(heavy.scene.glb, heavy.scene.shots.front().camera);

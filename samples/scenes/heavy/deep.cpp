@@ -9,17 +9,16 @@
 #include <string>
 #include <vector>
 
-#include "heavy/furniture.h"
 #include "heavy/heavy_scenes.h"
-#include "heavy/lattices.h"
-#include "heavy/shapes.h"
-#include "heavy/surfaces.h"
+#include "parts/furniture.h"
+#include "parts/lattices.h"
+#include "parts/shapes.h"
+#include "parts/surface_maps.h"
+#include "parts/surfaces.h"
 
 namespace scenes {
 namespace {
 
-constexpr Attributes kTextured{.normals = true, .uvs = true};
-constexpr Attributes kTinted{.normals = true, .uvs = true, .colors = true};
 constexpr float kFovyDeg = 36.0f;
 constexpr float kAspect = 16.0f / 9.0f;
 constexpr float kLensRadius = 0.025f;  // m

@@ -1,53 +1,24 @@
 // A wood in the morning: several hundred plants of a few kinds, each placed many times. In focus at 3.5 m is a stump with
 // mushrooms; fern and branch are close to the lens. Haze is in the materials: what is far is paler and glows a little.
+#include "heavy/forest.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/gtc/constants.hpp>
-#include <glm/gtc/matrix_transform.hpp>
 #include <string>
 #include <vector>
 
 #include "heavy/heavy_scenes.h"
-#include "heavy/plants.h"
-#include "heavy/shapes.h"
-#include "heavy/surfaces.h"
+#include "parts/plants.h"
+#include "parts/shapes.h"
+#include "parts/surface_maps.h"
+#include "parts/surfaces.h"
 
 namespace scenes {
 namespace {
-
-constexpr Attributes kTextured{.normals = true, .uvs = true};
-constexpr Attributes kTinted{.normals = true, .uvs = true, .colors = true};
-constexpr Attributes kColored{.normals = true, .colors = true};
-const glm::vec2 kStump(-0.12f, -3.5f);
-
-/// Height of the ground in metres: hollows and knolls, flat where the camera and the stump stand.
-float groundAt(float x, float z) {
-  const float waves = tilingClouds(glm::vec2(x, z) * 0.11f + 40.0f, 128, 7, 4) - 0.5f;
-  const float away = glm::smoothstep(2.0f, 12.0f, glm::length(glm::vec2(x, z + 2.0f)));
-  return 2.2f * waves * away + 0.03f * std::max(0.0f, -z - 8.0f);
-}
-
-/// 1 where sun falls through the crowns, 0 in shade.
-float sunAt(float x, float z) {
-  const float patches = tilingClouds(glm::vec2(x, z) * 0.55f + 90.0f, 256, 23, 3);
-  const float focus = std::exp(-glm::dot(glm::vec2(x, z) - kStump, glm::vec2(x, z) - kStump) * 0.5f);
-  return std::max(glm::smoothstep(0.47f, 0.58f, patches), focus);
-}
-
-constexpr int kBands = 3;
-
-/// Materials of one distance.
-struct Band {
-  int leaf, bark, fern;
-};
-
-struct ForestMaterials {
-  std::array<Band, kBands> bands;
-  int floor, litter;
-};
 
 /// share: of the plant's own light that the haze lets through.
 Material hazed(Material material, float share) {
@@ -92,15 +63,6 @@ ForestMaterials addMaterials(Glb& glb) {
                               .roughness = 0.8f});
   return m;
 }
-
-size_t bandOf(float distance) {
-  return distance < 9.0f ? 0 : distance < 20.0f ? 1 : 2;
-}
-
-glm::quat turned(float yaw) {
-  return glm::angleAxis(yaw, glm::vec3(0, 1, 0));
-}
-
 void addGround(Glb& glb, const ForestMaterials& materials) {
   Mesh ground = makeRectangle({0, 0, -29.0f}, {34, 0, 0}, {0, 0, -32.0f}, glm::vec2(1.0f), {190, 180});
   for (Vertex& vertex : ground.vertices) {
@@ -113,138 +75,6 @@ void addGround(Glb& glb, const ForestMaterials& materials) {
   smoothNormals(ground);
   glb.add("ground", ground, materials.floor, kTinted);
 }
-
-/// One mesh for each band, of the same geometry.
-struct Banded {
-  std::array<int, kBands> mesh;
-};
-
-Banded addBanded(Glb& glb, const std::string& name, const Mesh& mesh, const ForestMaterials& materials,
-                 int Band::*material, Attributes attributes) {
-  Banded banded{};
-  for (size_t i = 0; i < kBands; ++i) {
-    banded.mesh[i] = glb.addMesh(name, mesh, materials.bands[i].*material, attributes);
-  }
-  return banded;
-}
-
-void addTrees(Glb& glb, const ForestMaterials& materials) {
-  Random random(2024);
-  const std::array<TreeShape, 4> shapes = {TreeShape{.height = 9.5f,
-                                                     .trunkRadius = 0.17f,
-                                                     .bareShare = 0.20f,
-                                                     .branches = 17,
-                                                     .leaves = 13,
-                                                     .leafSize = 0.18f,
-                                                     .spread = 0.34f,
-                                                     .leafTint = {0.46f, 0.66f, 0.22f}},
-                                           TreeShape{.height = 11.0f,
-                                                     .trunkRadius = 0.24f,
-                                                     .bareShare = 0.26f,
-                                                     .branches = 18,
-                                                     .leaves = 13,
-                                                     .leafSize = 0.18f,
-                                                     .spread = 0.32f,
-                                                     .leafTint = {0.36f, 0.56f, 0.18f}},
-                                           TreeShape{.height = 8.0f,
-                                                     .trunkRadius = 0.12f,
-                                                     .bareShare = 0.18f,
-                                                     .branches = 16,
-                                                     .leaves = 13,
-                                                     .leafSize = 0.18f,
-                                                     .spread = 0.36f,
-                                                     .leafTint = {0.62f, 0.70f, 0.24f}},
-                                           TreeShape{.height = 3.2f,
-                                                     .trunkRadius = 0.035f,
-                                                     .bareShare = 0.1f,
-                                                     .branches = 13,
-                                                     .twigs = 7,
-                                                     .leaves = 9,
-                                                     .leafSize = 0.10f,
-                                                     .spread = 0.42f,
-                                                     .leafTint = {0.50f, 0.72f, 0.26f}}};
-  std::vector<Banded> woods, crowns;
-  for (const TreeShape& shape : shapes) {
-    const Plant tree = makeTree(shape, random);
-    woods.push_back(addBanded(glb, "tree", tree.wood, materials, &Band::bark, kTextured));
-    crowns.push_back(addBanded(glb, "crown", tree.leaves, materials, &Band::leaf, kTinted));
-  }
-  std::vector<glm::vec2> taken;
-  while (taken.size() < 86) {
-    const float z = random.between(-44.0f, -4.2f);
-    const float x = random.between(-1.0f, 1.0f) * (3.0f - 0.72f * z);
-    // A glade around the stump, and a way that leads away from it.
-    const float way = 0.9f * std::sin(z * 0.22f);
-    if (glm::length(glm::vec2(x, z) - kStump) < 2.6f || (std::abs(x - way) < 1.3f - 0.02f * z && z > -26.0f)) continue;
-    const auto tooClose = [&](glm::vec2 other) { return glm::length(other - glm::vec2(x, z)) < 1.7f; };
-    if (std::ranges::any_of(taken, tooClose)) continue;
-    taken.emplace_back(x, z);
-    const size_t kind = z > -6.5f ? 3 : random.next() % shapes.size();
-    const Placement at{.translation = {x, groundAt(x, z), z},
-                       .rotation = turned(random.between(0.0f, 6.28f)),
-                       .scale = random.between(0.8f, 1.2f)};
-    const size_t band = bandOf(-z);
-    glb.addNode("tree", woods[kind].mesh[band], at);
-    glb.addNode("crown", crowns[kind].mesh[band], at);
-  }
-}
-
-Mesh makeLitter(Random& random) {
-  Mesh litter;
-  for (int i = 0; i < 34; ++i) {
-    const float size = random.between(0.05f, 0.10f);
-    Mesh leaf = makeFoldedLeaf(size, size * 0.6f, random.between(0.0f, 0.18f), random.between(-0.1f, 0.25f));
-    leaf = colored(
-        leaf, glm::vec4(glm::mix(glm::vec3(0.62f, 0.34f, 0.10f), glm::vec3(0.40f, 0.26f, 0.12f), random.unit()), 1));
-    const glm::vec3 at(random.between(-0.5f, 0.5f), random.between(0.012f, 0.04f), random.between(-0.5f, 0.5f));
-    const glm::mat4 flat =
-        glm::rotate(glm::translate(glm::mat4(1.0f), at), random.between(0.0f, 6.28f), glm::vec3(0, 1, 0)) *
-        glm::rotate(glm::mat4(1.0f), -1.57f + random.between(-0.3f, 0.3f), glm::vec3(1, 0, 0));
-    append(litter, transformed(leaf, flat));
-  }
-  return litter;
-}
-
-/// Ferns, grass and leaves on the ground; in the shade darker ones.
-void addUndergrowth(Glb& glb, const ForestMaterials& materials) {
-  Random random(77);
-  std::vector<Banded> ferns, grasses, litters;
-  for (int i = 0; i < 4; ++i) {
-    const float light = i < 2 ? 1.0f : 0.42f;  // The latter two stand in the shade.
-    Mesh fern = makeFern(0.66f, 10 + i % 2 * 2, 21, random);
-    Mesh grass = makeGrass(0.34f, 70, random);
-    shade(fern, light);
-    shade(grass, light);
-    ferns.push_back(addBanded(glb, "fern", fern, materials, &Band::fern, kColored));
-    grasses.push_back(addBanded(glb, "grass", grass, materials, &Band::fern, kColored));
-  }
-  Mesh litter = makeLitter(random);
-  const int sunny = glb.addMesh("litter", litter, materials.litter, kTinted);
-  shade(litter, 0.4f);
-  const int shady = glb.addMesh("litter", litter, materials.litter, kTinted);
-  const auto scatter = [&](int count, float farthest, float power, const auto& place) {
-    for (int i = 0; i < count; ++i) {
-      const float z = -1.9f - (farthest - 1.9f) * std::pow(random.unit(), power);
-      const float x = random.between(-1.0f, 1.0f) * (0.8f - 0.66f * z);
-      const Placement at{.translation = {x, groundAt(x, z), z},
-                         .rotation = turned(random.between(0.0f, 6.28f)),
-                         .scale = random.between(0.7f, 1.3f)};
-      place(at, sunAt(x, z) > 0.5f, bandOf(-z), random.next() % 2);
-    }
-  };
-  scatter(170, 30.0f, 1.2f, [&](const Placement& at, bool inSun, size_t band, uint32_t kind) {
-    const glm::vec2 fromStump = glm::vec2(at.translation.x, at.translation.z) - kStump;
-    // The stump is to be seen.
-    if (glm::length(fromStump) < 0.75f || (fromStump.y > 0.0f && std::abs(fromStump.x) < 0.7f)) return;
-    glb.addNode("fern", ferns[kind + (inSun ? 0u : 2u)].mesh[band], at);
-  });
-  scatter(420, 22.0f, 1.6f, [&](const Placement& at, bool inSun, size_t band, uint32_t kind) {
-    glb.addNode("grass", grasses[kind + (inSun ? 0u : 2u)].mesh[band], at);
-  });
-  scatter(150, 12.0f, 1.3f,
-          [&](const Placement& at, bool inSun, size_t, uint32_t) { glb.addNode("litter", inSun ? sunny : shady, at); });
-}
-
 /// What is in focus: a mossy stump with mushrooms on it and around it.
 void addSubject(Glb& glb, const ForestMaterials& materials) {
   const std::array<glm::vec2, 12> shape = {glm::vec2(0.0f, -0.1f), {0.42f, -0.1f},  {0.36f, 0.02f},  {0.29f, 0.10f},
@@ -304,6 +134,18 @@ void addNear(Glb& glb, const ForestMaterials& materials) {
 
 }  // namespace
 
+float groundAt(float x, float z) {
+  const float waves = tilingClouds(glm::vec2(x, z) * 0.11f + 40.0f, 128, 7, 4) - 0.5f;
+  const float away = glm::smoothstep(2.0f, 12.0f, glm::length(glm::vec2(x, z + 2.0f)));
+  return 2.2f * waves * away + 0.03f * std::max(0.0f, -z - 8.0f);
+}
+
+float sunAt(float x, float z) {
+  const float patches = tilingClouds(glm::vec2(x, z) * 0.55f + 90.0f, 256, 23, 3);
+  const float focus = std::exp(-glm::dot(glm::vec2(x, z) - kStump, glm::vec2(x, z) - kStump) * 0.5f);
+  return std::max(glm::smoothstep(0.47f, 0.58f, patches), focus);
+}
+
 HeavyScene makeForest() {
   HeavyScene heavy;
   heavy.name = "forest";
@@ -315,7 +157,7 @@ HeavyScene makeForest() {
   Glb& glb = heavy.scene.glb;
   const ForestMaterials materials = addMaterials(glb);
   addGround(glb, materials);
-  addTrees(glb, materials);
+  addForestTrees(glb, materials);
   addUndergrowth(glb, materials);
   addSubject(glb, materials);
   addNear(glb, materials);

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "generate/scene.h"
-#include "heavy/sky.h"
+#include "parts/sky.h"
 
 namespace scenes {
 

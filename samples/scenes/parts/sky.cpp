@@ -1,5 +1,5 @@
 // A gradient in height and a lobe about the sun; see sky.h.
-#include "heavy/sky.h"
+#include "parts/sky.h"
 
 #include <algorithm>
 #include <cmath>

@@ -29,6 +29,10 @@ struct SurfaceMaps {
 
 SurfaceMaps mapsOf(const Relief& relief);
 
+/// What a mesh needs for such a material, and with vertex colors that tint it.
+constexpr Attributes kTextured{.normals = true, .uvs = true};
+constexpr Attributes kTinted{.normals = true, .uvs = true, .colors = true};
+
 /// Adds the three textures, repeating, and a lit material that uses them.
 int addSurface(Glb& glb, const std::string& name, const Relief& relief, bool doubleSided = false);
 

@@ -1,6 +1,7 @@
 // Shapes that several parts of the large scenes are made of, beside the primitives of generate/mesh.h.
 #pragma once
 
+#include <glm/gtc/quaternion.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <span>
@@ -16,6 +17,9 @@ Mesh boxBetween(glm::vec3 low, glm::vec3 high);
 /// Profile (z, y), read from top to bottom with the outside on the +Z side, drawn out along X from -halfLength to
 /// halfLength. One flat normal for each segment; the ends are open.
 Mesh extruded(std::span<const glm::vec2> profile, float halfLength);
+
+/// Rotation about +Y, counter-clockwise seen from above.
+glm::quat turned(float yaw);
 
 /// UV by position, metresPerTile for one repeat, projected along the axis that each vertex normal is nearest to.
 void mapPlanar(Mesh& mesh, float metresPerTile);

@@ -1,5 +1,5 @@
 // Each pattern walks the cells of its area and appends one part for each; see lattices.h.
-#include "heavy/lattices.h"
+#include "parts/lattices.h"
 
 #include <array>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "heavy/shapes.h"
+#include "parts/shapes.h"
 
 namespace scenes {
 namespace {

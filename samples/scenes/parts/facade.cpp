@@ -1,5 +1,5 @@
 // Walls are cut around their openings, so that reveals have depth; see facade.h.
-#include "heavy/facade.h"
+#include "parts/facade.h"
 
 #include <array>
 #include <cmath>
@@ -8,7 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "heavy/shapes.h"
+#include "parts/shapes.h"
+#include "parts/surface_maps.h"
 
 namespace scenes {
 namespace {
@@ -17,8 +18,6 @@ constexpr float kOpeningHalfWidth = 0.5f;  // m
 constexpr float kOpeningHeight = 1.75f;    // m
 constexpr float kSillHeight = 0.75f;       // m above the floor
 constexpr float kReveal = 0.22f;           // m
-
-constexpr Attributes kTextured{.normals = true, .uvs = true};
 
 struct Area {
   float left, right, bottom, top;

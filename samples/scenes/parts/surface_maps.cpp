@@ -1,5 +1,5 @@
 // Normals are central differences of the heights, which wrap round the tile; see surface_maps.h.
-#include "heavy/surface_maps.h"
+#include "parts/surface_maps.h"
 
 #include <cstddef>
 #include <glm/geometric.hpp>

@@ -1,5 +1,5 @@
 // Heights are made of waves, cells and tiling noise; colors and roughness follow the heights. See surfaces.h.
-#include "heavy/surfaces.h"
+#include "parts/surfaces.h"
 
 #include <algorithm>
 #include <cmath>

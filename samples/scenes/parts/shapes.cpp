@@ -1,5 +1,5 @@
 // See shapes.h. Fronts are counter-clockwise, as in generate/mesh.cpp.
-#include "heavy/shapes.h"
+#include "parts/shapes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,6 +21,10 @@ Mesh extruded(std::span<const glm::vec2> profile, float halfLength) {
     append(mesh, makeRectangle((top + bottom) * 0.5f, {halfLength, 0, 0}, (top - bottom) * 0.5f));
   }
   return mesh;
+}
+
+glm::quat turned(float yaw) {
+  return glm::angleAxis(yaw, glm::vec3(0, 1, 0));
 }
 
 void mapPlanar(Mesh& mesh, float metresPerTile) {

@@ -1,5 +1,5 @@
 // Branching follows one rule at every level: segments turn at random and towards a pull; see plants.h.
-#include "heavy/plants.h"
+#include "parts/plants.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <span>
 
-#include "heavy/shapes.h"
+#include "parts/shapes.h"
 
 namespace scenes {
 namespace {

@@ -2,7 +2,7 @@
 // tile is meant to be.
 #pragma once
 
-#include "heavy/surface_maps.h"
+#include "parts/surface_maps.h"
 
 namespace scenes {
 

@@ -1,5 +1,5 @@
 // See furniture.h.
-#include "heavy/furniture.h"
+#include "parts/furniture.h"
 
 #include <array>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "heavy/shapes.h"
+#include "parts/shapes.h"
 
 namespace scenes {
 namespace {
