@@ -14,6 +14,7 @@
 #include <string_view>
 
 #include "generate/scene.h"
+#include "generate/whole_file.h"
 #include "heavy/depth_complexity.h"
 #include "heavy/heavy_scenes.h"
 
@@ -48,8 +49,11 @@ void print(const std::string& file, const Scene& scene, const std::filesystem::p
 
 void write(const Scene& scene, const std::filesystem::path& folder, const std::string& file) {
   if (!folder.empty()) std::filesystem::create_directories(folder);
-  scene.glb.write(folder / file);
-  for (const scenes::Shot& shot : scene.shots) writeShot(folder / (shot.name + ".json"), shot, file);
+  scenes::writeWhole(folder / file, [&](const std::filesystem::path& path) { scene.glb.write(path); });
+  for (const scenes::Shot& shot : scene.shots) {
+    scenes::writeWhole(folder / (shot.name + ".json"),
+                       [&](const std::filesystem::path& path) { writeShot(path, shot, file); });
+  }
   print(file, scene, folder / file);
 }
 
@@ -62,7 +66,7 @@ void writeAll(const std::filesystem::path& folder) {
   write(scenes::makeFigure(), folder, "figure.glb");
   write(scenes::makeReflective(), folder, "reflective.glb");
   write(scenes::makeForegroundBlur(kForegroundBlurTriangles, "foreground_blur"), folder, "foreground_blur.glb");
-  scenes::writeStudioEnvironment(folder / "studio.exr");
+  scenes::writeWhole(folder / "studio.exr", scenes::writeStudioEnvironment);
 }
 
 /// One after another, so that no two are in memory.
@@ -70,7 +74,8 @@ void writeHeavy(const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
   for (scenes::HeavyScene (*make)() : {scenes::makeStreet, scenes::makeForest, scenes::makeDeep}) {
     const scenes::HeavyScene heavy = make();
-    scenes::writeSky(folder / (heavy.name + "_sky.exr"), heavy.sky);
+    scenes::writeWhole(folder / (heavy.name + "_sky.exr"),
+                       [&](const std::filesystem::path& path) { writeSky(path, heavy.sky); });
     write(heavy.scene, folder, heavy.name + ".glb");
     const scenes::DepthComplexity depth = depthComplexityOf(heavy.scene.glb, heavy.scene.shots.front().camera);
     std::fprintf(stderr, "%s: %.1f front faces behind a pixel in the mean, ten or more behind %.0f %% of the pixels\n",

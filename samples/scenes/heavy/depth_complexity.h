@@ -9,7 +9,7 @@
 namespace scenes {
 
 /// Front faces that cover the centers of a coarse picture's pixels, counted through everything, without depth test. Back
-/// faces do not count, those of double-sided materials neither.
+/// faces do not count, those of double-sided materials neither; nor does a triangle whose edge a ray meets exactly.
 struct DepthComplexity {
   int width = 0;
   int height = 0;

@@ -18,7 +18,7 @@ Glb sceneOf(const Mesh& mesh) {
 
 TEST(DepthComplexity, CountsEverySheetThatFacesTheCamera) {
   Mesh sheets;
-  for (const float z : {-0.5f, -2.0f, -7.0f}) append(sheets, makeRectangle({0, 0, z}, {20, 0, 0}, {0, 20, 0}));
+  for (const float z : {-0.5f, -2.0f, -7.0f}) append(sheets, makeRectangle({1, -3, z}, {20, 0, 0}, {0, 20, 0}));
   const DepthComplexity found = depthComplexityOf(sceneOf(sheets), kAhead, 32);
   EXPECT_EQ(found.mean(), 3.0);
   EXPECT_EQ(found.shareOfAtLeast(3), 1.0);

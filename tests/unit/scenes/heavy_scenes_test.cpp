@@ -124,6 +124,7 @@ TEST(HeavyScenes, AShotFileNamesItsSceneItsSkyAndLitShading) {
                           .lit = true,
                           .environment = "deep_sky.exr"};
   scenes::writeSky(folder / "deep_sky.exr", {});
+  test::writeBytes(folder / "deep.glb", {});
   writeShot(folder / "deep.json", made, "deep.glb");
   const host::Shot shot = host::readShot(folder / "deep.json");
   EXPECT_EQ(shot.shading, host::Shading::lit);
