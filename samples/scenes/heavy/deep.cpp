@@ -112,7 +112,7 @@ void addLanterns(Glb& glb) {
                                     .emissiveStrength = 14.0f});
   const int flame = glb.addMesh("flame", lantern.globe, glow, {.normals = true});
   Mesh cords;
-  // x and y as shares of the view's half height, depth in metres, size.
+  // x and y as shares of the view's half height, depth in meters, size.
   for (const glm::vec4 place : {glm::vec4(-0.04f, -0.17f, 1.25f, 0.5f),
                                 {0.17f, 0.02f, 2.7f, 0.7f},
                                 {-0.2f, 0.12f, 4.6f, 0.9f},

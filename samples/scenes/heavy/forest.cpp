@@ -98,7 +98,7 @@ void addSubject(Glb& glb, const ForestMaterials& materials) {
   std::vector<int> mushrooms;
   for (int i = 0; i < 3; ++i) mushrooms.push_back(glb.addMesh("mushroom", makeMushroom(1.0f, random), skin, kColored));
   const std::array<glm::vec4, 13> places = {
-      // x and z from the stump's middle, height of the foot, height of the mushroom; all in metres.
+      // x and z from the stump's middle, height of the foot, height of the mushroom; all in meters.
       glm::vec4(-0.05f, 0.05f, 0.45f, 0.21f),
       {0.09f, 0.02f, 0.45f, 0.15f},
       {-0.14f, -0.03f, 0.45f, 0.14f},

@@ -12,7 +12,7 @@ namespace scenes {
 constexpr Attributes kColored{.normals = true, .colors = true};
 const glm::vec2 kStump(-0.12f, -3.5f);  ///< m, x and z of what is in focus.
 
-/// Height of the ground in metres: hollows and knolls, flat where the camera and the stump stand.
+/// Height of the ground in meters: hollows and knolls, flat where the camera and the stump stand.
 float groundAt(float x, float z);
 /// 1 where sun falls through the crowns, 0 in shade.
 float sunAt(float x, float z);

@@ -13,8 +13,8 @@ namespace scenes {
 /// A scene of one shot; NAME.glb, NAME.json and NAME_sky.exr belong together.
 struct HeavyScene {
   std::string name;
-  Scene scene{.glb = Glb(4),
-              .shots = {}};  ///< Level 9 takes three times as long as all the rest, to save a seventh of the textures.
+  /// The most effort for the textures would take three times as long as all the rest, and save a seventh of them.
+  Scene scene{.glb = Glb(4), .shots = {}};
   Sky sky;
 };
 

@@ -9,7 +9,7 @@
 namespace scenes {
 
 constexpr float kHalfWidth = 4.5f;      // m, to the houses
-constexpr float kRoadHalfWidth = 3.0f;  // m, to the kerb
+constexpr float kRoadHalfWidth = 3.0f;  // m, to the curb
 constexpr float kStreetLength = 46.0f;  // m
 const glm::vec3 kTowardsSun(0.8f, 0.7f, 0.9f);
 

@@ -40,7 +40,7 @@ void addStreetHouses(Glb& glb, const StreetMaterials& materials) {
   const std::array<int, 4> walls = {addSurface(glb, "ochre plaster", plasterRelief({0.86f, 0.68f, 0.42f}, 51)),
                                     addSurface(glb, "red brick", brickRelief({0.62f, 0.30f, 0.22f}, 61)),
                                     addSurface(glb, "rose plaster", plasterRelief({0.84f, 0.58f, 0.50f}, 71)),
-                                    addSurface(glb, "grey plaster", plasterRelief({0.72f, 0.74f, 0.70f}, 81))};
+                                    addSurface(glb, "gray plaster", plasterRelief({0.72f, 0.74f, 0.70f}, 81))};
   const std::array<float, 4> tiles = {2.0f, 1.0f, 2.0f, 2.0f};
   const std::array<int, 3> paints = {addSurface(glb, "green paint", boardRelief({0.24f, 0.42f, 0.36f}, 91)),
                                      addSurface(glb, "white paint", boardRelief({0.88f, 0.86f, 0.80f}, 92)),
@@ -55,7 +55,7 @@ void addStreetHouses(Glb& glb, const StreetMaterials& materials) {
       const float length = kBayWidth * static_cast<float>(count);
       const House house{.name = isLeft ? "left house" : "right house",
                         .wall = walls[kind],
-                        .metresPerTile = tiles[kind],
+                        .metersPerTile = tiles[kind],
                         .paint = paints[(i + (isLeft ? 0u : 2u)) % 3],
                         .bays = count,
                         .floors = 3,
@@ -69,7 +69,7 @@ void addStreetHouses(Glb& glb, const StreetMaterials& materials) {
   }
   const House end{.name = "end house",
                   .wall = walls[3],
-                  .metresPerTile = 2.0f,
+                  .metersPerTile = 2.0f,
                   .paint = paints[0],
                   .bays = 4,
                   .floors = 1,

@@ -230,7 +230,7 @@ void addHouse(Glb& glb, FacadeParts& parts, const House& house, const Placement&
                         balcony);
     }
   }
-  mapPlanar(wall, house.metresPerTile);
+  mapPlanar(wall, house.metersPerTile);
   glb.addNode(house.name, glb.addMesh(house.name, wall, house.wall, kTextured), placement);
   Mesh trim;
   addCornices(trim, length, house);

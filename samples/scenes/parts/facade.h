@@ -40,7 +40,7 @@ class FacadeParts {
 struct House {
   std::string name;
   int wall = -1;  ///< Material.
-  float metresPerTile = 1.0f;
+  float metersPerTile = 1.0f;
   int paint = -1;  ///< Material of frames and shutters.
   int bays = 3;
   int floors = 4;  ///< Above the ground floor.

@@ -1,6 +1,7 @@
 // See furniture.h.
 #include "parts/furniture.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
@@ -154,8 +155,13 @@ Canvas paintSign(const std::string& upper, const std::string& lower, glm::vec3 g
   const glm::vec4 back(ground, 1);
   canvas.fill({8, 8}, {240, 144}, gold);
   canvas.fill({12, 12}, {232, 136}, back);
-  canvas.writeCentered(upper, {128, 30}, 5.5f, gold);
-  canvas.writeCentered(lower, {128, 92}, 5.5f, gold);
+  const auto line = [&](const std::string& text, float middle) {
+    constexpr float kWidth = 212.0f, kLargestDot = 5.5f;  // px
+    const float dot = std::min(kLargestDot, kWidth / (6.0f * static_cast<float>(text.size()) - 1.0f));
+    canvas.writeCentered(text, {128, middle - 3.5f * dot}, dot, gold);
+  };
+  line(upper, 50.0f);
+  line(lower, 110.0f);
   return canvas;
 }
 

@@ -53,7 +53,7 @@ struct LightString {
 };
 LightString makeLightString(glm::vec3 from, glm::vec3 to, float sag, int bulbs);
 
-/// A square metre of cobbles, 8 × 8 stones, from its corner on towards +X and −Z. lightAt: share of the light that
+/// A square meter of cobbles, 8 × 8 stones, from its corner on towards +X and −Z. lightAt: share of the light that
 /// arrives at (x, z); it and the stones' tones are in the vertex colors.
 Mesh makeCobblePatch(glm::vec2 corner, const std::function<float(glm::vec2)>& lightAt, Random& random);
 

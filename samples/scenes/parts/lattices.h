@@ -21,7 +21,7 @@ struct LatticeArea {
 Mesh makeBeadCurtain(const LatticeArea& area, float coverage, Random& random);
 /// Two layers of slats, turned by +45° and -45°, each slat coverage · pitch wide.
 Mesh makeDiagonalLattice(const LatticeArea& area, float coverage);
-/// Rings that touch their neighbours.
+/// Rings that touch their neighbors.
 Mesh makeRingScreen(const LatticeArea& area, float coverage);
 /// Turned bars upright and across, with a ball at each crossing.
 Mesh makeTurnedGrille(const LatticeArea& area, float coverage);

@@ -27,10 +27,10 @@ glm::quat turned(float yaw) {
   return glm::angleAxis(yaw, glm::vec3(0, 1, 0));
 }
 
-void mapPlanar(Mesh& mesh, float metresPerTile) {
+void mapPlanar(Mesh& mesh, float metersPerTile) {
   for (Vertex& vertex : mesh.vertices) {
     const glm::vec3 facing = glm::abs(vertex.normal);
-    const glm::vec3 p = vertex.position / metresPerTile;
+    const glm::vec3 p = vertex.position / metersPerTile;
     if (facing.y >= facing.x && facing.y >= facing.z) {
       vertex.uv = {p.x, p.z};
     } else if (facing.x >= facing.z) {

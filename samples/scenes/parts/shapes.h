@@ -21,8 +21,8 @@ Mesh extruded(std::span<const glm::vec2> profile, float halfLength);
 /// Rotation about +Y, counter-clockwise seen from above.
 glm::quat turned(float yaw);
 
-/// UV by position, metresPerTile for one repeat, projected along the axis that each vertex normal is nearest to.
-void mapPlanar(Mesh& mesh, float metresPerTile);
+/// UV by position, metersPerTile for one repeat, projected along the axis that each vertex normal is nearest to.
+void mapPlanar(Mesh& mesh, float metersPerTile);
 
 /// Multiplies the UV.
 void scaleUv(Mesh& mesh, glm::vec2 factor);

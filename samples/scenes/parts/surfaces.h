@@ -10,7 +10,7 @@ namespace scenes {
 Relief brickRelief(glm::vec3 brick, uint32_t seed);
 /// Painted plaster with stains; 2 m.
 Relief plasterRelief(glm::vec3 paint, uint32_t seed);
-/// Grey stone, fine-grained; 0.5 m.
+/// Gray stone, fine-grained; 0.5 m.
 Relief graniteRelief(uint32_t seed);
 /// Rows of cobbles seen from above, for where they are too far for geometry; 1 m.
 Relief cobbleRelief(uint32_t seed);

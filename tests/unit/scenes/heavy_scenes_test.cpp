@@ -89,7 +89,7 @@ TEST(HeavyScenes, TheForestHasItsTrianglesAndTextures) {
   EXPECT_GE(engine::triangleCount(forest.loaded), scenes::kForestTriangles);
 }
 
-TEST(HeavyScenes, TheDeepOneHasTenSurfacesBehindAPixelFromAHandToFiftyMetres) {
+TEST(HeavyScenes, TheDeepOneHasTenSurfacesBehindAPixelFromAHandToFiftyMeters) {
   const test::TemporaryFolder folder;
   const WrittenScene deep = writeAndLoad(scenes::makeDeep, folder);
   expectUsable(deep, 6, 4);
