@@ -45,8 +45,9 @@ float tilingNoise(glm::vec2 point, int period, uint32_t seed);
 /// Octaves of it, each twice as fine and half as strong.
 float tilingClouds(glm::vec2 point, int period, uint32_t seed, int octaves);
 
-/// PNG file in memory: RGB, or RGBA where alpha is asked for. Throws std::runtime_error.
-std::vector<uint8_t> encodePng(const Canvas& canvas, bool alpha);
+/// PNG file in memory: RGB, or RGBA where alpha is asked for. level: zlib's, 1 (quick) to 9 (small). Throws
+/// std::runtime_error.
+std::vector<uint8_t> encodePng(const Canvas& canvas, bool alpha, int level = 9);
 /// RGB half float EXR of linear radiance, row by row. Throws std::runtime_error.
 void writeExr(const std::filesystem::path& file, int width, int height, const std::vector<glm::vec3>& radiance);
 

@@ -17,7 +17,7 @@ uint8_t toByte(float value) {
 
 }  // namespace
 
-std::vector<uint8_t> encodePng(const Canvas& canvas, bool alpha) {
+std::vector<uint8_t> encodePng(const Canvas& canvas, bool alpha, int level) {
   const int channels = alpha ? 4 : 3;
   std::vector<uint8_t> bytes;
   for (int y = 0; y < canvas.height(); ++y) {
@@ -30,7 +30,7 @@ std::vector<uint8_t> encodePng(const Canvas& canvas, bool alpha) {
   OIIO::ImageSpec spec(canvas.width(), canvas.height(), channels, OIIO::TypeDesc::UINT8);
   spec.attribute("oiio:ColorSpace", "sRGB");
   spec.attribute("oiio:UnassociatedAlpha", 1);
-  spec.attribute("png:compressionLevel", 9);
+  spec.attribute("png:compressionLevel", level);
   const auto output = OIIO::ImageOutput::create("texture.png", &memory);
   if (!output || !output->open("texture.png", spec) || !output->write_image(OIIO::TypeDesc::UINT8, bytes.data()) ||
       !output->close()) {

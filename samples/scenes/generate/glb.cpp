@@ -110,7 +110,7 @@ void Glb::useExtension(const char* name) {
 }
 
 int Glb::addTexture(const std::string& name, const Canvas& canvas, Wrap wrap, bool alpha) {
-  const std::vector<uint8_t> png = encodePng(canvas, alpha);
+  const std::vector<uint8_t> png = encodePng(canvas, alpha, pngLevel_);
   const size_t view = addView(png.data(), png.size(), 0);
   const size_t image = push(root_, "images", {{"name", name}, {"mimeType", "image/png"}, {"bufferView", view}});
   const int mode = wrap == Wrap::repeat ? 10497 : 33071;  // REPEAT, CLAMP_TO_EDGE
@@ -128,7 +128,11 @@ int Glb::addMaterial(const Material& material) {
       {"metallicFactor", material.metallic},
       {"roughnessFactor", material.roughness}};
   if (material.texture >= 0) surface["baseColorTexture"] = {{"index", material.texture}};
+  if (material.metallicRoughnessTexture >= 0) {
+    surface["metallicRoughnessTexture"] = {{"index", material.metallicRoughnessTexture}};
+  }
   Json json = {{"name", material.name}, {"pbrMetallicRoughness", surface}};
+  if (material.normalTexture >= 0) json["normalTexture"] = {{"index", material.normalTexture}};
   if (material.alphaMode == AlphaMode::blend) json["alphaMode"] = "BLEND";
   if (material.alphaMode == AlphaMode::mask) {
     json["alphaMode"] = "MASK";

@@ -38,6 +38,8 @@ struct Material {
   glm::vec3 emissive{0.0f};
   float emissiveStrength = 1.0f;
   int emissiveTexture = -1;
+  int normalTexture = -1;             ///< Tangent space, as glTF wants it.
+  int metallicRoughnessTexture = -1;  ///< G: roughness, B: metallic; the factors above are multiplied in.
 };
 
 /// Which attributes a mesh is written with, beside positions.
@@ -63,6 +65,9 @@ struct LightSource {
 
 class Glb {
  public:
+  /// pngLevel: effort of the textures' compression, 1 (quick) to 9 (small).
+  explicit Glb(int pngLevel = 9) : pngLevel_(pngLevel) {}
+
   int addTexture(const std::string& name, const Canvas& canvas, Wrap wrap, bool alpha = false);
   int addMaterial(const Material& material);
   /// extras: written to the mesh when not null.
@@ -90,6 +95,7 @@ class Glb {
   Json root_ = {{"asset", {{"version", "2.0"}, {"generator", "lensgraph generate_scenes"}, {"copyright", "MIT"}}},
                 {"scene", 0},
                 {"scenes", Json::array({{{"nodes", Json::array()}}})}};
+  int pngLevel_;
   std::vector<uint8_t> binary_;
   std::vector<std::vector<Triangle>> meshTriangles_;
   std::vector<Triangle> worldTriangles_;

@@ -81,7 +81,10 @@ const Directions kDirections = {
     {"samples/lensgraph/commands",
      {"engine", "engine/*", "passes", "passes/*", "samples/host", "samples/host/measures", "samples/lensgraph",
       "samples/lensgraph/*", kGraph, kShared}},
+    {"samples/scenes", {"samples/scenes/generate", "samples/scenes/heavy"}},
     {"samples/scenes/generate", {}},
+    {"samples/scenes/parts", {"samples/scenes/generate"}},
+    {"samples/scenes/heavy", {"samples/scenes/generate", "samples/scenes/parts"}},
 };
 
 const std::vector<SourceFile>& sources() {
