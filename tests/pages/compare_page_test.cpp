@@ -95,6 +95,10 @@ TEST_F(ComparePage, SwitchesBetweenLightAndDark) {
   expectSwitchesBetweenLightAndDark();
 }
 
+TEST_F(ComparePage, FollowsTheSystemsColors) {
+  expectFollowsTheSystemsColors();
+}
+
 TEST_F(ComparePage, FitsNarrowWindows) {
   expectFitsNarrowWindows();
 }

@@ -2,8 +2,8 @@
 //
 // makePictureViewer(box, select) draws into the element and returns {show(set, id)}. A set: {reference: {name, uri},
 // pictures: [{id, name, uri, map}], masks: [{name, uri}]}; `map` is the picture's FLIP map. `select(id)` is called when
-// the user takes another picture in the viewer itself. Pictures of one set have one size. viewer_controls.js has the buttons,
-// keys and the mouse.
+// the user takes another picture in the viewer itself. Pictures of one set have one size. viewer_controls.js has the
+// buttons, keys and the mouse.
 const kLargestZoom = 64, kGap = 4;
 
 class PictureViewer extends ViewerControls {
@@ -111,7 +111,8 @@ class PictureViewer extends ViewerControls {
       masks: shown.slice(3).flatMap((mask, i) => mask ? [maskCanvas(mask, colorOf(masks[i]))] : []) };
     this.names = [picture ? picture.name : "", (otherPicture || set.reference).name];
     this.computed = {};
-    this.modes.buttons.find(button => button.dataset.value === "other").textContent = otherPicture ? "other" : "reference";
+    const otherButton = this.modes.buttons.find(button => button.dataset.value === "other");
+    otherButton.textContent = otherPicture ? "other" : "reference";
     const needs = { picture: shown[0], other: shown[1], flip: shown[2] };
     for (const button of this.modes.buttons) {
       const { value } = button.dataset;
@@ -128,7 +129,8 @@ class PictureViewer extends ViewerControls {
     const { picture, other } = this.shown, size = picture || other, width = this.canvas.clientWidth;
     if (!width) return;
     const shape = size ? size.height / size.width : 9 / 16;
-    const height = Math.round(Math.max(160, Math.min((document.fullscreenElement ? 0.86 : 0.75) * innerHeight, this.viewWidth() * shape)));
+    const most = (document.fullscreenElement ? 0.86 : 0.75) * innerHeight;
+    const height = Math.round(Math.max(160, Math.min(most, this.viewWidth() * shape)));
     this.canvas.style.height = height + "px";
     this.canvas.width = Math.round(width * devicePixelRatio);
     this.canvas.height = Math.round(height * devicePixelRatio);

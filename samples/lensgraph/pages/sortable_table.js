@@ -1,7 +1,8 @@
 // A table that sorts by the column whose heading is pressed, and whose rows can be selected by mouse and keyboard.
 
 /// Columns: {name, title, isText, value(row), text(row), more(row), tone(row)}: the value sorts, absent values (null) last;
-/// `more` is a second, quiet line, `tone` the cell's classes. Rows need a unique `key`. `select(row)` is called when a row is chosen; null: rows cannot be.
+/// `more` is a second, quiet line, `tone` the cell's classes. Rows need a unique `key`. `select(row)` is called when a
+/// row is chosen; null: rows cannot be.
 /// Returns {mark(key), setColumns(columns), setRows(rows)}.
 function sortableTable(table, label, select) {
   let columns = [], rows = [], sortedBy = null, isUp = true, marked = null;

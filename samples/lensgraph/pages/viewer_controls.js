@@ -1,4 +1,5 @@
-// What the user does with the picture viewer: its buttons, sliders, keys and the mouse. picture_viewer.js does what they ask.
+// What the user does with the picture viewer: its buttons, sliders, keys and the mouse. picture_viewer.js does what they
+// ask.
 
 const kModes = [
   { value: "picture", text: "picture", title: "the picture alone (1); the space bar blinks to the other one" },
@@ -37,7 +38,7 @@ class ViewerControls {
     zoomButton("fit", "whole picture", () => this.fit());
     zoomButton("1:1", "one pixel of the picture on one of the screen", () => this.zoomTo(1 / devicePixelRatio));
     zoomButton("+", "zoom in", () => this.zoomBy(2));
-    const screen = zoomButton("⛶", "full screen", () => this.toggleFullScreen());
+    const screen = zoomButton("full", "full screen", () => this.toggleFullScreen());
     screen.hidden = !document.fullscreenEnabled;
     this.zoomText = element(zooms, "span", { class: "quiet number" });
   }
