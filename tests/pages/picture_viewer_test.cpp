@@ -110,6 +110,14 @@ TEST_F(PictureViewer, ZoomsAndPansAndTellsPixels) {
   EXPECT_NEAR(std::stod(state("zoom").get<std::string>()), before, 0.01);
 }
 
+TEST_F(PictureViewer, FillsTheScreenAndLeavesIt) {
+  browser().click("#viewer [aria-label='full screen']");
+  EXPECT_TRUE(browser().becomesTrue("document.fullscreenElement?.id === 'viewer'"));
+  browser().evaluate("document.querySelector('#viewer canvas').focus()");
+  browser().press("f");
+  EXPECT_TRUE(browser().becomesTrue("document.fullscreenElement === null"));
+}
+
 TEST_F(PictureViewer, TintsMasksOverThePicture) {
   pressMode("picture");
   browser().click("#viewer input[type=checkbox]");

@@ -198,6 +198,8 @@ class PictureViewer extends ViewerControls {
   tell() {
     const { state, shown } = this;
     Object.assign(this.box.dataset, { mode: state.mode, zoom: state.zoom.toFixed(3), gain: state.gain });
+    // A finger on the whole picture scrolls the page.
+    this.canvas.style.touchAction = state.isFitted ? "pan-y" : "none";
     this.dividerSlider.label.hidden = state.mode !== "divider";
     this.dividerSlider.text.textContent = Math.round(100 * state.divider) + " %";
     this.gainSlider.label.hidden = state.mode !== "difference";

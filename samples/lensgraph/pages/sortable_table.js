@@ -6,8 +6,8 @@
 /// Returns {mark(key), setColumns(columns), setRows(rows)}.
 function sortableTable(table, label, select) {
   let columns = [], rows = [], sortedBy = null, isUp = true, marked = null;
-  element(table, "caption", { hidden: "" }, label);
   table.setAttribute("aria-label", label);
+  if (select) table.setAttribute("role", "grid");
   const head = element(element(table, "thead"), "tr"), body = element(table, "tbody");
 
   function ordered() {
