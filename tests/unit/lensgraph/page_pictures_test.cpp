@@ -67,6 +67,13 @@ TEST(PagePictures, AreScaledDownByTheLightThatTheyShow) {
   EXPECT_THAT(small.samples, testing::ElementsAre(188, 188, 188, 0, 0, 0));
 }
 
+TEST(PagePictures, WeighPixelsByTheAreaThatTheyCover) {
+  FloatImage map(3, 1, 1);
+  map.samples = {0.2f, 0.8f, 0.4f};
+  // Two pixels of one and a half each: (0.2 + 0.5 * 0.8) / 1.5 and (0.5 * 0.8 + 0.4) / 1.5, times 255.
+  EXPECT_THAT(decoded(cli::mapUri(map, 2)).samples, testing::ElementsAre(102, 136));
+}
+
 TEST(PagePictures, OfAnySizeFitTheLongestSide) {
   for (const auto& [width, height] : {std::pair{961u, 3u}, {7u, 1000u}, {960u, 960u}, {1u, 1u}}) {
     const FloatImage image = decoded(cli::pictureUri(FloatImage(width, height, 1, 1.0f), 0.0));
