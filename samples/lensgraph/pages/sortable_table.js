@@ -29,7 +29,8 @@ function sortableTable(table, label, select) {
       line.addEventListener("click", () => select(row));
       line.addEventListener("keydown", event => {
         if (event.key === "Enter" || event.key === " ") { event.preventDefault(); select(row); }
-        const next = event.key === "ArrowDown" ? line.nextSibling : event.key === "ArrowUp" ? line.previousSibling : null;
+        const next = event.key === "ArrowDown" ? line.nextSibling
+          : event.key === "ArrowUp" ? line.previousSibling : null;
         if (next) { event.preventDefault(); next.focus(); }
       });
     }

@@ -5,7 +5,7 @@ const kModes = [
   { value: "picture", text: "picture", title: "the picture alone (1); the space bar blinks to the other one" },
   { value: "other", text: "reference", title: "the other picture alone (2)" },
   { value: "divider", text: "divider", title: "the picture left of the divider, the other one right of it (3)" },
-  { value: "side", text: "side by side", title: "both, moved together (4)" },
+  { value: "side", text: "both", title: "both, side by side or one below the other; they move together (4)" },
   { value: "difference", text: "difference", title: "absolute difference of the displayed colors, times the gain (5)" },
   { value: "flip", text: "FLIP", title: "the picture's FLIP map against the reference (6)" },
 ];
