@@ -12,8 +12,8 @@
 #include "engine/image/image_bytes.h"
 #include "engine/image/image_format.h"
 #include "engine/image/image_io.h"
-#include "engine/image/metrics.h"
 #include "engine/image/picture_file.h"
+#include "engine/image/srgb.h"
 
 namespace lensgraph::engine {
 namespace {

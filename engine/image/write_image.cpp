@@ -19,7 +19,7 @@
 #include "engine/files/output_file.h"
 #include "engine/image/image_format.h"
 #include "engine/image/image_io.h"
-#include "engine/image/metrics.h"
+#include "engine/image/srgb.h"
 
 namespace lensgraph::engine {
 namespace {

@@ -5,10 +5,12 @@
 #include <cstring>
 
 #include "engine/error.h"
+#include "engine/process_usage.h"
 #include "passes/pinhole/pinhole.h"
 #include "rendergraph/compiler.h"
 #include "samples/host/limits/fitting_size.h"
 #include "samples/host/limits/list_room.h"
+#include "samples/host/raytraced.h"
 #include "samples/host/read_back.h"
 #include "samples/host/renderer_state.h"
 #include "samples/host/shot_scene.h"
@@ -81,6 +83,7 @@ bool fits(RendererState& state, const Shot& shot, PictureExtent extent, const Re
 
 ChosenTechnique techniqueOf(const RenderOptions& options) {
   const passes::Technique& technique = requireTechnique(options.technique, {}, "technique");
+  if (isRaytraced(technique.name)) failWithoutGraph("--technique", "no graph to declare");
   const auto problems = passes::check(options.parameters, technique.parameters);
   if (!problems.empty()) throwProblem(problems.front(), technique.name);
   return {technique, technique.configure(options.parameters)};
@@ -92,7 +95,7 @@ Renderer::Renderer(engine::Device& device, const Shot& shot, std::vector<std::st
 Renderer::Renderer(engine::Device& device, engine::Scene scene, const std::optional<engine::Environment>& environment)
     : state_(std::make_unique<RendererState>(device)) {
   state_->scene = std::move(scene);
-  state_->hasEnvironment = environment.has_value();
+  state_->environment = environment;
   state_->renderer = std::make_unique<engine::SceneRenderer>(state_->backend, *state_->scene, environment);
 }
 
@@ -144,9 +147,13 @@ Rendering RendererState::run(const ChosenTechnique& technique, const DofInputs& 
   for (uint32_t frame = 0; frame < frames; ++frame) {
     graph.reset();
     const bool isLast = frame + 1 == frames;
-    const auto back = declareReadBacks(graph, declareFrame(graph, frame), isLast, options.wantDepth);
+    const bool isShown = !isLast && options.intermediate && std::ranges::count(options.intermediateAt, frame + 1) > 0;
+    const auto back = declareReadBacks(graph, declareFrame(graph, frame), isLast || isShown, options.wantDepth);
     graph.finish();
+    const double cpuMsBefore = engine::processCpuMs();
     executor.execute(graph, options.execute);
+    rendering.cpuMs += engine::processCpuMs() - cpuMsBefore;
+    rendering.graphBytes = std::max<uint64_t>(rendering.graphBytes, executor.capture().memory.peakBytes);
     ++rendering.executions;
     if (options.observe) options.observe(executor.capture());
     if (options.tapped != nullptr) keepTapped(graph, executor, taps, *options.tapped);
@@ -160,6 +167,7 @@ Rendering RendererState::run(const ChosenTechnique& technique, const DofInputs& 
     if (!options.fixedRoom && lacksRoom(rendering.statistics, nodesAreCapped))
       return rendering;  // The caller makes room and starts again.
     if (options.progress) options.progress(frame + 1, frames);
+    if (isShown) options.intermediate(frame + 1, imageFrom(executor.mapped(back.color), inputs.extent, 4));
     if (!isLast) continue;
     rendering.color = imageFrom(executor.mapped(back.color), inputs.extent, 4);
     if (back.depth) {
@@ -173,6 +181,10 @@ Rendering RendererState::run(const ChosenTechnique& technique, const DofInputs& 
 }
 
 Rendering Renderer::render(const Shot& shot, const RenderOptions& options) {
+  if (isRaytraced(requireTechnique(options.technique, {}, "technique").name)) {
+    if (!state_->scene) throw engine::Error("this renderer was made without a scene");
+    return renderRaytraced(*state_->scene, state_->environment, shot, options);
+  }
   const auto technique = techniqueOf(options);
   const DofInputs inputs = state_->sceneInputs(shot);
   if (options.fixedRoom) {
@@ -220,7 +232,7 @@ std::vector<std::string> RendererState::warningsOf(const Shot& shot, const passe
   } else if (shot.faces == engine::DrawnFaces::material) {
     add(backFacesWarning(rendering.color, shot.background, *scene));
   }
-  if (shot.shading == Shading::lit) add(unlitSceneWarning(*scene, hasEnvironment));
+  if (shot.shading == Shading::lit) add(unlitSceneWarning(*scene, environment.has_value()));
   add(listRoomWarning(rendering.statistics));
   add(limitedBlurWarning(rendering.statistics.clampedCoc, shot.lens, technique, parameters, shot.height));
   return warnings;

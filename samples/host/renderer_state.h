@@ -58,7 +58,7 @@ struct RendererState {
   rendergraph::Executor executor;
   std::optional<engine::Scene> scene;
   std::unique_ptr<engine::SceneRenderer> renderer;
-  bool hasEnvironment = false;
+  std::optional<engine::Environment> environment;
   /// Fragment nodes have all the room that the device can give, and what found none is left out.
   bool nodesAreCapped = false;
   bool nothingIsVisible = false;  ///< Of the scene, in the shot that sceneInputs() was asked for last.

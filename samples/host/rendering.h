@@ -1,6 +1,7 @@
 // What a rendering is asked for, and what it returns.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -24,6 +25,8 @@ struct Rendering {
   rendergraph::Capture capture;  ///< Of the last execution.
   double gpuMs = 0.0;            ///< Device time of all executions.
   double wallMs = 0.0;           ///< Host time of all executions. The first render() also compiles shaders.
+  double cpuMs = 0.0;            ///< Processor time of all threads of the process during these executions.
+  uint64_t graphBytes = 0;       ///< Memory that the graph allocated for an execution, the largest of all.
   uint32_t executions = 0;       ///< Of the graph; progressive techniques take several for one picture.
   /// One line each: what of the shot had no effect, or why the picture may not be what was meant.
   std::vector<std::string> warnings;
@@ -36,8 +39,11 @@ struct Tapped {
   std::vector<rendergraph::TapChoice> choices;  ///< Every image that could have been tapped.
 };
 
-/// Done executions and their number; called between executions.
+/// Done executions and their number; called between executions. Of `raytraced`: parts of the work.
 using Progress = std::function<void(uint32_t done, uint32_t total)>;
+
+/// A picture of a progressive technique before it is finished: after how many of its executions, and the picture.
+using Intermediate = std::function<void(uint32_t executions, const engine::FloatImage& color)>;
 
 /// Room in per-pixel lists, in fragments a pixel; see passes::SceneDraw.
 struct ListRoom {
@@ -50,6 +56,10 @@ struct RenderOptions {
   rendergraph::ExecuteOptions execute;
   bool wantDepth = false;
   Progress progress;
+  /// Called with the picture after each of the executions that `intermediateAt` names (from 1, ascending), the finished
+  /// one excepted. Null: never.
+  Intermediate intermediate;
+  std::vector<uint32_t> intermediateAt;
   /// Images of passes to be copied into `tapped`, which may be null without taps and lives as long as the rendering.
   /// A progressive technique's come from the last execution that has the pass. Formats that are no picture throw.
   std::vector<rendergraph::ImageTap> taps;
@@ -59,6 +69,8 @@ struct RenderOptions {
   std::optional<ListRoom> fixedRoom;
   /// Called with the capture of each execution, if set.
   std::function<void(const rendergraph::Capture&)> observe;
+  /// Of `raytraced` alone: a file in which the state is kept, and from which an interrupted rendering goes on; empty: none.
+  std::filesystem::path checkpoint;
 };
 
 }  // namespace lensgraph::host

@@ -8,6 +8,7 @@
 
 #include "engine/error.h"
 #include "samples/host/json_reader.h"
+#include "samples/host/raytraced/raytraced_technique.h"
 
 namespace lensgraph::host {
 namespace {
@@ -16,10 +17,53 @@ constexpr const char* kCommandLine = "command line";
 
 std::string allTechniqueNames() {
   std::string names;
-  for (const auto& technique : passes::techniques()) {
+  for (const auto& technique : techniques()) {
     names += (names.empty() ? "" : ", ") + std::string(technique.name);
   }
   return names;
+}
+
+const passes::ParameterInfo* findParameter(const passes::Technique& technique, std::string_view name) {
+  const auto found = std::find_if(technique.parameters.begin(), technique.parameters.end(),
+                                  [&](const auto& info) { return info.name == name; });
+  return found == technique.parameters.end() ? nullptr : &*found;
+}
+
+const passes::Technique* findTechnique(std::string_view name) {
+  const auto all = techniques();
+  const auto found = std::ranges::find(all, name, &passes::Technique::name);
+  return found == all.end() ? nullptr : &*found;
+}
+
+struct Unknown {
+  std::string reason, remedy;
+};
+
+Unknown unknownTechnique(std::string_view name) {
+  std::vector<std::string_view> names;
+  for (const auto& technique : techniques()) names.push_back(technique.name);
+  const auto nearest = passes::nearestName(name, names);
+  return {
+      .reason = "unknown technique \"" + std::string(name) + "\"",
+      .remedy = nearest.empty() ? "known are " + allTechniqueNames() : "did you mean " + std::string(nearest) + "?"};
+}
+
+}  // namespace
+
+std::span<const passes::Technique> techniques() {
+  static const std::vector<passes::Technique> all = [] {
+    const auto ofGraph = passes::techniques();
+    std::vector<passes::Technique> list(ofGraph.begin(), ofGraph.end());
+    list.push_back(raytracedTechnique());
+    return list;
+  }();
+  return all;
+}
+
+const passes::Technique& requireTechnique(std::string_view name, const std::string& file, const std::string& field) {
+  if (const auto* technique = findTechnique(name)) return *technique;
+  const Unknown unknown = unknownTechnique(name);
+  throw engine::Error({.file = file, .field = field, .reason = unknown.reason, .remedy = unknown.remedy});
 }
 
 passes::ParameterValue parameterValue(const JsonNode& node) {
@@ -33,29 +77,10 @@ passes::ParameterValue parameterValue(const JsonNode& node) {
   node.fail("is " + std::string(node.typeName()) + ", must be a boolean, a number or a string");
 }
 
-const passes::ParameterInfo* findParameter(const passes::Technique& technique, std::string_view name) {
-  const auto found = std::find_if(technique.parameters.begin(), technique.parameters.end(),
-                                  [&](const auto& info) { return info.name == name; });
-  return found == technique.parameters.end() ? nullptr : &*found;
-}
-
-struct Unknown {
-  std::string reason, remedy;
-};
-
-Unknown unknownTechnique(std::string_view name) {
-  const auto nearest = passes::nearestTechniqueName(name);
-  return {
-      .reason = "unknown technique \"" + std::string(name) + "\"",
-      .remedy = nearest.empty() ? "known are " + allTechniqueNames() : "did you mean " + std::string(nearest) + "?"};
-}
-
-}  // namespace
-
-const passes::Technique& requireTechnique(std::string_view name, const std::string& file, const std::string& field) {
-  if (const auto* technique = passes::findTechnique(name)) return *technique;
+const passes::Technique& requireTechnique(const JsonNode& node, std::string_view name) {
+  if (const auto* technique = findTechnique(name)) return *technique;
   const Unknown unknown = unknownTechnique(name);
-  throw engine::Error({.file = file, .field = field, .reason = unknown.reason, .remedy = unknown.remedy});
+  node.fail(unknown.reason, unknown.remedy);
 }
 
 TechniqueChoice parseTechnique(const JsonNode& node, std::string_view defaultName) {
@@ -69,7 +94,7 @@ TechniqueChoice parseTechnique(const JsonNode& node, std::string_view defaultNam
     }
   }
   if (choice.name.empty()) node.failAt("name", "is missing", "name a technique: " + allTechniqueNames());
-  const auto* technique = passes::findTechnique(choice.name);
+  const auto* technique = findTechnique(choice.name);
   if (technique == nullptr) {
     const Unknown unknown = unknownTechnique(choice.name);
     node.failAt("name", unknown.reason, unknown.remedy);

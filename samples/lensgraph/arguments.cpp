@@ -97,6 +97,11 @@ void addInspection(CLI::App& app, InspectionArguments& inspection) {
                  "isolated on CPU devices, inline on others")
       ->type_name("MODE")
       ->check(CLI::IsMember({"inline", "isolated"}));
+  app.add_option("--frames-timed", inspection.framesTimed,
+                 "Time this many more whole frames after the picture, when all is warm (default: 1 with --json)")
+      ->type_name("N")
+      ->check(CLI::Range(0, 100000));
+  app.add_flag("--json", inspection.json, "Print the report as JSON");
   app.add_option("--dump-image", inspection.dumps,
                  "Write an image inside the graph, as it is after the pass; may be repeated. list: say which there are")
       ->type_name("PASS/RESOURCE[MIP,LAYER]=FILE.exr|png")
@@ -123,6 +128,9 @@ Action addRender(CLI::App& app) {
   addExposure(*sub, a->exposureEv);
   addInspection(*sub, a->inspection);
   sub->add_option("--depth-out", a->depthOut, "Write view depth in metres")->type_name("FILE.exr");
+  sub->add_option("--checkpoint", a->checkpoint,
+                  "Of raytraced: keep what is done in this file, and go on from it when it is there")
+      ->type_name("FILE");
   sub->add_option("-o,--output", a->output, "Picture to write: .exr, .png or .hdr")->type_name("OUT");
   return [a](const GlobalArguments& global) {
     requireOutput("render", a->output, a->inspection);
@@ -188,16 +196,30 @@ Action addTechniques(CLI::App& app) {
 }
 
 Action addCompare(CLI::App& app) {
-  auto* sub = app.add_subcommand("compare", "Measure how far a picture is from its reference");
+  auto* sub = app.add_subcommand("compare", "Measure how far pictures are from their reference");
   auto a = std::make_shared<CompareArguments>();
-  sub->add_option("picture", a->picture, "Picture")->type_name("A")->required();
-  sub->add_option("reference", a->reference, "Reference")->type_name("REFERENCE")->required();
+  sub->add_option("pictures", a->pictures, "Pictures, and last the reference")
+      ->type_name("PICTURE… REFERENCE")
+      ->required()
+      ->expected(2, CLI::detail::expected_max_vector_size);
   sub->add_option("--exposure", a->exposureEv, "Stops by which both are brightened before they are compared")
       ->type_name("EV");
+  sub->add_option("--shot", a->shot,
+                  "Shot whose lens and camera tell where depth of field fails: figures there as well")
+      ->type_name("SHOT.json");
+  sub->add_option("--depth", a->depth, "Depth of the shot through a pinhole, in metres (default: it is rendered)")
+      ->type_name("DEPTH.exr")
+      ->needs("--shot");
+  sub->add_option("--maps", a->maps, "Folder for pictures of FLIP, of the difference and of the masks")
+      ->type_name("DIR");
+  sub->add_option("--page", a->page, "Write a page that shows pictures, FLIP, differences and masks")
+      ->type_name("FILE.html");
   sub->add_flag("--json", a->json, "As JSON");
-  return [a](const GlobalArguments&) {
+  return [a](const GlobalArguments& global) {
     requireFinite("--exposure", a->exposureEv);
-    return runCompare(*a);
+    a->reference = a->pictures.back();
+    a->pictures.pop_back();
+    return runCompare(*a, global);
   };
 }
 
@@ -249,6 +271,63 @@ Action addDemo(CLI::App& app) {
   return [a](const GlobalArguments& global) { return runDemo(*a, global); };
 }
 
+Action addBench(CLI::App& app) {
+  auto* sub = app.add_subcommand(
+      "bench", "Measure techniques, parameters, shots and sizes in turns; goes on from where it was interrupted");
+  auto a = std::make_shared<BenchArguments>();
+  sub->add_option("config", a->config, "Configuration file, or quick: every technique with its defaults")
+      ->type_name("CONFIG.json|quick")
+      ->required();
+  sub->add_option("-o,--output", a->output, "Folder to write")->type_name("DIR")->required();
+  sub->add_option("--shots", a->shots, "Shot file or folder of shots instead of the configuration's; may be repeated")
+      ->type_name("PATH")
+      ->allow_extra_args(false);
+  sub->add_option("--program", a->programs, "Another build of lensgraph that takes turns; may be repeated")
+      ->type_name("NAME=PATH")
+      ->allow_extra_args(false);
+  sub->add_option("--references", a->references,
+                  "Folder in which rendered references are kept (default DIR/references)")
+      ->type_name("DIR");
+  sub->add_option("--repeats", a->repeats, "Turns of each variant instead of the configuration's")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000));
+  sub->add_option("--shard", a->shard, "Measure only this part of N, from 1 (see bench-merge)")->type_name("I/N");
+  return [a](const GlobalArguments& global) { return runBench(*a, global); };
+}
+
+Action addBenchMerge(CLI::App& app) {
+  auto* sub = app.add_subcommand("bench-merge", "Join the parts of a benchmark that were measured with --shard");
+  auto a = std::make_shared<BenchMergeArguments>();
+  sub->add_option("folders", a->folders, "Folders of all parts")->type_name("DIR")->required();
+  sub->add_option("-o,--output", a->output, "Folder to write")->type_name("DIR")->required();
+  return [a](const GlobalArguments&) { return runBenchMerge(*a); };
+}
+
+Action addCompareBench(CLI::App& app) {
+  auto* sub = app.add_subcommand("compare-bench", "Hold two benchmarks together; exit code 1 on a regression");
+  auto a = std::make_shared<CompareBenchArguments>();
+  sub->add_option("before", a->before, "Folder of a benchmark, or its bench.json")->type_name("A")->required();
+  sub->add_option("after", a->after, "Another one")->type_name("B")->required();
+  sub->add_option("--unit", a->unit, "Compare times as multiples of this unit's, for benchmarks of two machines")
+      ->type_name("UNIT")
+      ->check(CLI::IsMember({"none", "pinhole", "copy", "accumulationView"}))
+      ->capture_default_str();
+  sub->add_option("--time-tolerance", a->timeTolerance, "Ratio of times beyond which B is slower")
+      ->type_name("RATIO")
+      ->check(CLI::Range(1.0, 1e6))
+      ->capture_default_str();
+  sub->add_option("--psnr-tolerance", a->psnrTolerance, "Fall of PSNR beyond which B is worse")
+      ->type_name("DB")
+      ->check(CLI::Range(0.0, 1e3))
+      ->capture_default_str();
+  sub->add_option("--ssim-tolerance", a->ssimTolerance, "Fall of SSIM beyond which B is worse")
+      ->type_name("D")
+      ->check(CLI::Range(0.0, 2.0))
+      ->capture_default_str();
+  sub->add_flag("--json", a->json, "As JSON");
+  return [a](const GlobalArguments&) { return runCompareBench(*a); };
+}
+
 Action addDevices(CLI::App& app) {
   auto* sub = app.add_subcommand("devices", "List the Vulkan devices of this machine");
   auto json = std::make_shared<bool>(false);
@@ -298,10 +377,7 @@ std::string suggestion(const CLI::App& app, const std::string& word) {
 
 int run(int argc, char** argv) {
   CLI::App app("Depth of field through a Vulkan render graph.", "lensgraph");
-  app.set_version_flag("--version", [] {
-    const std::string commit = kCommit;
-    return std::string("lensgraph ") + kVersion + (commit.empty() ? "" : " (" + commit + ")");
-  });
+  app.set_version_flag("--version", [] { return programName(); });
   app.footer("Exit codes: 0 done, 1 failed at run time, 2 bad input or usage.");
   app.fallthrough();  // global options may stand after the subcommand
   GlobalArguments global;
@@ -316,6 +392,9 @@ int run(int argc, char** argv) {
                                                          {"compare", addCompare(app)},
                                                          {"graph", addGraph(app)},
                                                          {"demo", addDemo(app)},
+                                                         {"bench", addBench(app)},
+                                                         {"bench-merge", addBenchMerge(app)},
+                                                         {"compare-bench", addCompareBench(app)},
                                                          {"capture-view", addCaptureView(app)},
                                                          {"capture-diff", addCaptureDiff(app)},
                                                          {"devices", addDevices(app)}};

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
-#include "engine/image/metrics.h"
+#include "engine/image/srgb.h"
+#include "engine/metrics/displayed.h"
 
 namespace lensgraph::cli {
 namespace {
@@ -26,14 +28,15 @@ std::array<float, 3> errorColor(float error) {
   return color;
 }
 
-engine::FloatImage errorMap(const engine::FloatImage& picture, const engine::FloatImage& reference) {
-  const auto a = engine::displayed(picture, 0.0);
-  const auto b = engine::displayed(reference, 0.0);
-  engine::FloatImage map(a.width, a.height, 3);
-  for (uint32_t y = 0; y < a.height; ++y) {
-    for (uint32_t x = 0; x < a.width; ++x) {
+engine::FloatImage errorMap(const engine::FloatImage& picture, const engine::FloatImage& reference, double exposureEv) {
+  engine::FloatImage map(picture.width, picture.height, 3);
+  std::vector<float> a(std::size_t{3} * map.width), b(a.size());
+  for (uint32_t y = 0; y < map.height; ++y) {
+    engine::displayRow(picture, exposureEv, y, a);
+    engine::displayRow(reference, exposureEv, y, b);
+    for (uint32_t x = 0; x < map.width; ++x) {
       float error = 0.0f;
-      for (uint32_t i = 0; i < 3; ++i) error = std::max(error, std::abs(a.pixel(x, y)[i] - b.pixel(x, y)[i]));
+      for (std::size_t i = 0; i < 3; ++i) error = std::max(error, std::abs(a[3 * x + i] - b[3 * x + i]));
       const auto color = errorColor(error);
       for (std::size_t i = 0; i < 3; ++i) map.pixel(x, y)[i] = engine::linearFromSrgb(color[i]);
     }

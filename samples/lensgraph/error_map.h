@@ -15,7 +15,9 @@ inline constexpr float kErrorMapEnd = 0.25f;
 /// yellow).
 std::array<float, 3> errorColor(float error);
 
-/// A linear picture to be written as PNG. Precondition: both have the same size and at least three channels.
-engine::FloatImage errorMap(const engine::FloatImage& picture, const engine::FloatImage& reference);
+/// The largest difference of a channel of the displayed pictures, as colours: a linear picture to be written as PNG.
+/// `exposureEv`: stops by which both are brightened first. Precondition: both have the same size, and 1, 3 or 4 channels.
+engine::FloatImage errorMap(const engine::FloatImage& picture, const engine::FloatImage& reference,
+                            double exposureEv = 0.0);
 
 }  // namespace lensgraph::cli

@@ -1,9 +1,7 @@
-// Device, technique choice and summary shared by the rendering subcommands: see session.h.
+// Device and technique choice shared by the rendering subcommands: see session.h.
 #include "samples/lensgraph/session.h"
 
 #include <spdlog/spdlog.h>
-
-#include <cstdio>
 
 #include "engine/error.h"
 
@@ -46,37 +44,6 @@ host::TechniqueChoice chooseTechnique(host::TechniqueChoice fromShot, const Tech
   host::requireTechnique(choice.name, "command line", "--technique");
   for (const auto& setting : arguments.settings) host::setParameter(choice, setting);
   return choice;
-}
-
-void printSummary(const engine::DeviceDescription& device, const host::TechniqueChoice& choice,
-                  const host::Rendering& rendering) {
-  std::printf("device     %s\n", describe(device).c_str());
-  std::printf("technique  %s\n", choice.name.c_str());
-  for (const auto& parameter : host::requireTechnique(choice.name, "", "").parameters) {
-    const auto given = choice.parameters.find(parameter.name);
-    const auto& value = given == choice.parameters.end() ? parameter.defaultValue : given->second;
-    std::printf("           %s = %s%s%s\n", std::string(parameter.name).c_str(), passes::toString(value).c_str(),
-                parameter.unit.empty() ? "" : " ", std::string(parameter.unit).c_str());
-  }
-  std::printf("picture    %u x %u px\n", rendering.color.width, rendering.color.height);
-  std::printf("time       GPU %.2f ms, wall %.2f ms\n", rendering.gpuMs, rendering.wallMs);
-  if (rendering.estimatedError >= 0.0) std::printf("estimate   RMS error %.2g left\n", rendering.estimatedError);
-  if (rendering.statistics.replacedTexels > 0) {
-    spdlog::warn("{} texels that were not finite were replaced by 0", rendering.statistics.replacedTexels);
-  }
-  Session::report(rendering.warnings);
-  if (rendering.statistics.transparentUnsorted > 0) {
-    spdlog::warn("{} pixels have too many alpha-blended layers: the nearest ones are missing there",
-                 rendering.statistics.transparentUnsorted);
-  }
-  if (rendering.statistics.transparentDropped > 0) {
-    spdlog::warn("{} transparent fragments found no room: the picture is incomplete",
-                 rendering.statistics.transparentDropped);
-  }
-  if (rendering.statistics.unsortedLists > 0) {
-    spdlog::warn("{} pixels have too many surfaces one behind another: some are missing there",
-                 rendering.statistics.unsortedLists);
-  }
 }
 
 }  // namespace lensgraph::cli

@@ -36,8 +36,4 @@ class Session {
 /// technique is. Throws engine::Error.
 host::TechniqueChoice chooseTechnique(host::TechniqueChoice fromShot, const TechniqueArguments& arguments);
 
-/// Device, technique with every parameter, times: what each rendering subcommand prints on stdout.
-void printSummary(const engine::DeviceDescription& device, const host::TechniqueChoice& choice,
-                  const host::Rendering& rendering);
-
 }  // namespace lensgraph::cli

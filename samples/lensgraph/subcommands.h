@@ -36,8 +36,12 @@ struct InspectionArguments {
   std::optional<int> frames;                ///< Measured after one warm-up frame; kDefaultFrames when absent.
   std::optional<std::string> timing;        ///< "inline" or "isolated"; by the device's type when absent.
   std::vector<std::string> dumps;           ///< "PASS/RESOURCE[mip,layer]=FILE", or "list" alone.
+  std::optional<int> framesTimed;           ///< Whole frames to time after the picture; see timedFrames().
+  bool json = false;                        ///< Print the report as JSON.
   static constexpr int kDefaultFrames = 5;  ///< Few enough to wait for; enough for a median and its spread.
   bool measures() const { return capture || trace; }
+  /// As asked for; otherwise one for a report as JSON, which tells the price of a warm frame, and none for one in words.
+  int timedFrames() const { return framesTimed.value_or(json ? 1 : 0); }
 };
 
 struct RenderArguments {
@@ -48,7 +52,8 @@ struct RenderArguments {
   std::optional<double> exposureEv;         ///< PNG only.
   InspectionArguments inspection;
   std::optional<std::filesystem::path> depthOut;
-  std::filesystem::path output;  ///< Empty: none asked for.
+  std::optional<std::filesystem::path> checkpoint;  ///< Of raytraced: kept state, from which it goes on.
+  std::filesystem::path output;                     ///< Empty: none asked for.
 };
 int runRender(const RenderArguments& arguments, const GlobalArguments& global);
 
@@ -76,11 +81,16 @@ struct ApplyArguments {
 int runApply(const ApplyArguments& arguments, const GlobalArguments& global);
 
 struct CompareArguments {
-  std::filesystem::path picture, reference;
+  std::vector<std::filesystem::path> pictures;  ///< At least one.
+  std::filesystem::path reference;
   double exposureEv = 0.0;
   bool json = false;
+  std::optional<std::filesystem::path> shot;   ///< Whose lens and camera tell where depth of field fails.
+  std::optional<std::filesystem::path> depth;  ///< m, through a pinhole; with a shot only. Rendered when absent.
+  std::optional<std::filesystem::path> maps;   ///< Folder to write.
+  std::optional<std::filesystem::path> page;   ///< HTML file to write.
 };
-int runCompare(const CompareArguments& arguments);
+int runCompare(const CompareArguments& arguments, const GlobalArguments& global);
 
 struct GraphArguments {
   std::filesystem::path shot;
@@ -98,6 +108,33 @@ struct DemoArguments {
   int referenceSamples = 256;                   ///< Lens samples of the reference.
 };
 int runDemo(const DemoArguments& arguments, const GlobalArguments& global);
+
+struct BenchArguments {
+  std::string config;                               ///< A configuration file, or "quick".
+  std::filesystem::path output;                     ///< A folder.
+  std::vector<std::filesystem::path> shots;         ///< Instead of the configuration's; see findShots().
+  std::vector<std::string> programs;                ///< "NAME=PATH"
+  std::optional<std::filesystem::path> references;  ///< Folder of rendered references; OUTPUT/references when absent.
+  std::string shard;                                ///< "I/N"; empty: all.
+  std::optional<int> repeats;                       ///< Instead of the configuration's.
+};
+int runBench(const BenchArguments& arguments, const GlobalArguments& global);
+
+struct BenchMergeArguments {
+  std::vector<std::filesystem::path> folders;  ///< Of all shards.
+  std::filesystem::path output;
+};
+int runBenchMerge(const BenchMergeArguments& arguments);
+
+struct CompareBenchArguments {
+  std::filesystem::path before, after;  ///< bench.json, or folders that hold it.
+  std::string unit = "none";            ///< "none", "pinhole", "copy" or "accumulationView".
+  double timeTolerance = 1.1;           ///< Ratio of times that is still none of a regression, >= 1.
+  double psnrTolerance = 0.0;           ///< dB that PSNR may fall, >= 0.
+  double ssimTolerance = 0.0;           ///< By which SSIM may fall, >= 0.
+  bool json = false;
+};
+int runCompareBench(const CompareBenchArguments& arguments);
 
 struct CaptureViewArguments {
   std::filesystem::path capture, output;  ///< "-" as output is stdout.

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "engine/image/image_io.h"
-#include "engine/image/metrics.h"
+#include "engine/image/srgb.h"
 #include "program.h"
 
 namespace lensgraph {

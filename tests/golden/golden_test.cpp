@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "engine/image/image_io.h"
-#include "engine/image/metrics.h"
+#include "engine/metrics/metrics.h"
 #include "tests/support/gpu/gpu_test.h"
 
 namespace lensgraph {

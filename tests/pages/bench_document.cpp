@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/image/image_io.h"
-#include "engine/image/metrics.h"
+#include "engine/image/srgb.h"
 
 namespace lensgraph::page_test {
 namespace {

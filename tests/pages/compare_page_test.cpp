@@ -13,7 +13,7 @@ using nlohmann::json;
 using testing::HasSubstr;
 using testing::Not;
 
-cli::Comparison comparison() {
+cli::ComparePageContent comparison() {
   const auto figures = [](double psnr, const nlohmann::ordered_json& ssim) {
     return nlohmann::ordered_json{{"psnr", psnr},
                                   {"ssim", ssim},

@@ -9,7 +9,7 @@
 
 #include "engine/error.h"
 #include "engine/image/image_io.h"
-#include "engine/image/metrics.h"
+#include "engine/metrics/metrics.h"
 #include "engine/vulkan/device.h"
 
 namespace lensgraph::papers {

@@ -9,7 +9,7 @@
 #include <memory>
 
 #include "engine/image/image_io.h"
-#include "engine/image/metrics.h"
+#include "engine/metrics/metrics.h"
 #include "tests/support/gpu/gpu_test.h"
 
 namespace lensgraph {

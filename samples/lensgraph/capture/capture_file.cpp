@@ -46,20 +46,25 @@ std::string hashOfFiles(const std::vector<std::filesystem::path>& files) {
   return digits;
 }
 
-json captureJson(const engine::DeviceDescription& device, const CaptureInput& input,
-                 const host::TechniqueChoice& choice, const host::Rendering& rendering,
-                 const Measurement& measurement) {
+json samplesJson(const std::vector<double>& samples) {
+  json spread = toJson(rendergraph::spreadOf(samples));
+  if (!spread.is_null()) spread["samples"] = samples;
+  return spread;
+}
+
+json allParameters(const host::TechniqueChoice& choice) {
   json parameters = json::object();
   for (const auto& info : host::requireTechnique(choice.name, "", "").parameters) {
     const auto given = choice.parameters.find(info.name);
     parameters[std::string(info.name)] = toJson(given == choice.parameters.end() ? info.defaultValue : given->second);
   }
-  std::stringstream graph;
-  rendergraph::writeJson(graph, measurement.series);
+  return parameters;
+}
+
+json renderingJson(const engine::DeviceDescription& device, const CaptureInput& input,
+                   const host::TechniqueChoice& choice, const host::Rendering& rendering) {
   const auto& statistics = rendering.statistics;
   return {
-      {"format", kCaptureFormat},
-      {"formatVersion", kCaptureVersion},
       {"program", {{"name", "lensgraph"}, {"version", kVersion}, {"commit", kCommit}}},
       {"device", toJson(device)},
       {"shot", input.source},
@@ -68,11 +73,8 @@ json captureJson(const engine::DeviceDescription& device, const CaptureInput& in
       {"lens",
        {{"apertureRadius", passes::apertureRadius(*input.lens)}, {"focusDistance", toJson(input.lens->focusDistance)}}},
       {"faces", input.faces ? json(host::nameOf(*input.faces)) : json()},
-      {"technique", {{"name", choice.name}, {"parameters", std::move(parameters)}}},
+      {"technique", {{"name", choice.name}, {"parameters", allParameters(choice)}}},
       {"executions", rendering.executions},
-      {"gpuMs", toJson(rendergraph::spreadOf(measurement.gpuMs))},
-      {"uninterrupted", toJson(rendergraph::spreadOf(measurement.uninterruptedMs))},
-      {"wallMs", toJson(rendergraph::spreadOf(measurement.wallMs))},
       {"estimatedError", rendering.estimatedError < 0.0 ? json() : toJson(rendering.estimatedError)},
       {"statistics",
        {{"replacedTexels", statistics.replacedTexels},
@@ -85,8 +87,22 @@ json captureJson(const engine::DeviceDescription& device, const CaptureInput& in
         {"listFragmentsDropped", statistics.listFragmentsDropped},
         {"unsortedLists", statistics.unsortedLists},
         {"clampedCoc", statistics.clampedCoc}}},
-      {"graph", json::parse(graph)},
   };
+}
+
+json captureJson(const engine::DeviceDescription& device, const CaptureInput& input,
+                 const host::TechniqueChoice& choice, const host::Rendering& rendering,
+                 const Measurement& measurement) {
+  std::stringstream graph;
+  rendergraph::writeJson(graph, measurement.series);
+  json capture = renderingJson(device, input, choice, rendering);
+  capture["format"] = kCaptureFormat;
+  capture["formatVersion"] = kCaptureVersion;
+  capture["gpuMs"] = toJson(rendergraph::spreadOf(measurement.gpuMs));
+  capture["uninterrupted"] = toJson(rendergraph::spreadOf(measurement.uninterruptedMs));
+  capture["wallMs"] = toJson(rendergraph::spreadOf(measurement.wallMs));
+  capture["graph"] = json::parse(graph);
+  return capture;
 }
 
 }  // namespace lensgraph::cli

@@ -36,6 +36,17 @@ struct CaptureInput {
   std::optional<engine::DrawnFaces> faces;  ///< Of a shot.
 };
 
+/// {"median", "min", "max", "samples"}: the spread and what it is of; null without samples.
+nlohmann::json samplesJson(const std::vector<double>& samples);
+
+/// What captures and reports alike say of a rendering: program, device, input with its hash, resolution, lens, technique
+/// with every parameter, executions, statistics.
+nlohmann::json renderingJson(const engine::DeviceDescription& device, const CaptureInput& input,
+                             const host::TechniqueChoice& choice, const host::Rendering& rendering);
+
+/// Every parameter of the technique: those of the set, and the defaults of the others.
+nlohmann::json allParameters(const host::TechniqueChoice& choice);
+
 /// What the program's capture files say that they are, in their fields "format" and "formatVersion".
 inline constexpr const char* kCaptureFormat = "lensgraph capture";
 inline constexpr int kCaptureVersion = 1;

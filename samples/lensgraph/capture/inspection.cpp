@@ -33,6 +33,16 @@ std::vector<OutputFile> Inspection::outputs() const {
 
 host::Rendering Inspection::render(const engine::DeviceDescription& device, host::RenderOptions options,
                                    const RenderOnce& renderOnce) {
+  host::Rendering rendering = renderPicture(device, options, renderOnce);
+  options.execute.timing = rendergraph::Timing::inlineTimestamps;
+  for (int frame = 0; frame < arguments_.timedFrames() && !dumps_.listsOnly(); ++frame) {
+    times_.add(renderOnce(options));
+  }
+  return rendering;
+}
+
+host::Rendering Inspection::renderPicture(const engine::DeviceDescription& device, host::RenderOptions options,
+                                          const RenderOnce& renderOnce) {
   host::Rendering measured;
   if (arguments_.measures()) {
     host::RenderOptions timed = options;

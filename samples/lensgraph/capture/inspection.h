@@ -1,4 +1,5 @@
-// What is wanted beside the picture: measured frames (--capture, --trace) and images inside the graph (--dump-image).
+// What is wanted beside the picture: measured frames (--capture, --trace, --frames-timed) and images inside the graph
+// (--dump-image).
 // Shared by render and apply.
 #pragma once
 
@@ -28,18 +29,25 @@ class Inspection {
   const ImageDumps& imageDumps() const { return dumps_; }
 
   /// Renders the picture. With something to measure: a warm-up frame (shaders are compiled in it), then the measured
-  /// ones, and one more when images are dumped, whose copies would disturb the measurement. Throws what `renderOnce`
+  /// ones, and one more when images are dumped, whose copies would disturb the measurement. Frames to be timed follow
+  /// last, since all that came before has warmed them up. Throws what `renderOnce`
   /// throws, and engine::Error (bad input) when a dump matches nothing: nothing is written then.
   host::Rendering render(const engine::DeviceDescription& device, host::RenderOptions options,
                          const RenderOnce& renderOnce);
+  /// Of the frames of --frames-timed; empty without.
+  const FrameTimes& frameTimes() const { return times_; }
   /// Writes what was asked for.
   void write(const engine::DeviceDescription& device, const CaptureInput& input, const host::TechniqueChoice& choice,
              const host::Rendering& rendering) const;
 
  private:
+  host::Rendering renderPicture(const engine::DeviceDescription& device, host::RenderOptions options,
+                                const RenderOnce& renderOnce);
+
   const InspectionArguments& arguments_;
   ImageDumps dumps_;
   std::optional<Measurement> measurement_;
+  FrameTimes times_;
 };
 
 }  // namespace lensgraph::cli

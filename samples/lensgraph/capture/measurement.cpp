@@ -5,6 +5,12 @@
 
 namespace lensgraph::cli {
 
+void FrameTimes::add(const host::Rendering& rendering) {
+  gpuMs.push_back(rendering.gpuMs);
+  wallMs.push_back(rendering.wallMs);
+  cpuMs.push_back(rendering.cpuMs);
+}
+
 rendergraph::Timing timingOf(const InspectionArguments& arguments, const engine::DeviceDescription& device) {
   const bool isolated = arguments.timing ? *arguments.timing == "isolated" : device.type == "cpu";
   return isolated ? rendergraph::Timing::isolated : rendergraph::Timing::inlineTimestamps;

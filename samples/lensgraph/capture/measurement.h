@@ -20,6 +20,13 @@ struct Measurement {
   std::vector<rendergraph::Capture> executions;  ///< All of them, in order.
 };
 
+/// Times of whole frames of one picture, ms, frame by frame; nothing but the frame was measured.
+struct FrameTimes {
+  std::vector<double> gpuMs, wallMs;
+  std::vector<double> cpuMs;  ///< Processor time, user and system, of all threads of the process.
+  void add(const host::Rendering& rendering);
+};
+
 using RenderOnce = std::function<host::Rendering(const host::RenderOptions& options)>;
 
 /// As the arguments say; otherwise isolated on CPU devices, where timestamps of single passes are wrong once something

@@ -1,9 +1,10 @@
 // lensgraph apply: a technique on a picture and its depth, wherever they come from.
-#include <cstdio>
+#include <limits>
 
 #include "engine/error.h"
 #include "engine/image/image_io.h"
 #include "samples/lensgraph/capture/inspection.h"
+#include "samples/lensgraph/capture/report.h"
 #include "samples/lensgraph/commands/applied_pictures.h"
 #include "samples/lensgraph/output.h"
 #include "samples/lensgraph/progress.h"
@@ -93,9 +94,9 @@ int runApply(const ApplyArguments& arguments, const GlobalArguments& global) {
   }
 
   writePicture(arguments.output, rendering.color, arguments.exposureEv);
-  inspection.write(device, {arguments.color.string(), {arguments.color, arguments.depth}, &lens}, choice, rendering);
-  printSummary(device, choice, rendering);
-  for (const auto& line : pictures.summary) std::printf("%s\n", line.c_str());
+  const CaptureInput input{arguments.color.string(), {arguments.color, arguments.depth}, &lens};
+  inspection.write(device, input, choice, rendering);
+  printReport({device, input, choice, rendering, inspection.frameTimes(), pictures.summary}, arguments.inspection.json);
   return session.finish();
 }
 

@@ -6,7 +6,7 @@
 
 #include "engine/error.h"
 #include "engine/image/image_io.h"
-#include "engine/image/metrics.h"
+#include "engine/metrics/metrics.h"
 #include "samples/lensgraph/error_map.h"
 #include "samples/lensgraph/output.h"
 #include "samples/lensgraph/pages/demo_page.h"
@@ -159,11 +159,8 @@ int runDemo(const DemoArguments& arguments, const GlobalArguments& global) {
   const std::string device = describe(session.device().description());
   std::cout << "device  " << device << "\n" << std::flush;
 
-  const std::string commit = kCommit;
-  DemoReport report{.device = device,
-                    .version = std::string("lensgraph ") + kVersion + (commit.empty() ? "" : " (" + commit + ")"),
-                    .referenceSamples = arguments.referenceSamples,
-                    .scenes = {}};
+  DemoReport report{
+      .device = device, .version = programName(), .referenceSamples = arguments.referenceSamples, .scenes = {}};
   {
     Steps steps(shots.size() * (1 + passes::techniques().size()));
     for (const auto& shot : shots) report.scenes.push_back(renderScene(session, shot, arguments, steps));

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "rendergraph/dump.h"
+#include "samples/host/raytraced.h"
 #include "samples/lensgraph/output.h"
 #include "samples/lensgraph/session.h"
 #include "samples/lensgraph/subcommands.h"
@@ -20,6 +21,7 @@ int runGraph(const GraphArguments& arguments, const GlobalArguments& global) {
   }
   shot.faces = arguments.faces.value_or(shot.faces);
   const auto choice = chooseTechnique({shot.technique, shot.parameters}, arguments.technique);
+  if (host::isRaytraced(choice.name)) host::failWithoutGraph("--technique", "nothing to write");
   if (arguments.dot && *arguments.dot != "-") checkOutput(*arguments.dot, "--dot");
   if (arguments.json && *arguments.json != "-") checkOutput(*arguments.json, "--json");
   const std::array<OutputFile, 2> files = {OutputFile{arguments.dot.value_or(""), "--dot"},

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/vulkan/device.h"
-#include "passes/registry/registry.h"
+#include "samples/host/technique_choice.h"
 #include "samples/lensgraph/capture/capture_file.h"
 #include "samples/lensgraph/session.h"
 #include "samples/lensgraph/subcommands.h"
@@ -60,7 +60,7 @@ ordered_json toOrderedJson(const passes::ParameterInfo& info) {
 
 void printJson() {
   ordered_json all = ordered_json::array();
-  for (const auto& technique : passes::techniques()) {
+  for (const auto& technique : host::techniques()) {
     ordered_json parameters = ordered_json::array();
     for (const auto& info : technique.parameters) parameters.push_back(toOrderedJson(info));
     all.push_back({{"name", technique.name},
@@ -79,7 +79,7 @@ int runTechniques(bool json) {
     printJson();
     return 0;
   }
-  for (const auto& technique : passes::techniques()) {
+  for (const auto& technique : host::techniques()) {
     std::cout << technique.name << ": " << technique.title << " (" << technique.source << ")\n"
               << "  works on "
               << (technique.input == passes::TechniqueInput::image ? "any picture with depth" : "scenes") << "\n";

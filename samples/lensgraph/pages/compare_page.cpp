@@ -16,7 +16,7 @@ constexpr char kScript[] = {
 #include "generated/compare_page_script.inc"
 };
 
-ordered_json pictureJson(const ComparedPicture& picture, double exposureEv, uint32_t longestSide) {
+ordered_json pictureJson(const ComparePagePicture& picture, double exposureEv, uint32_t longestSide) {
   return {{"name", picture.name},
           {"figures", picture.figures},
           {"picture", pictureUri(picture.image, exposureEv, longestSide)},
@@ -25,7 +25,7 @@ ordered_json pictureJson(const ComparedPicture& picture, double exposureEv, uint
 
 }  // namespace
 
-std::string comparePage(const Comparison& comparison, uint32_t longestSide) {
+std::string comparePage(const ComparePageContent& comparison, uint32_t longestSide) {
   requireD3("compare --page");
   ordered_json pictures = ordered_json::array(), masks = ordered_json::array();
   for (const auto& picture : comparison.pictures) {

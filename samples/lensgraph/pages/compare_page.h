@@ -11,7 +11,7 @@
 
 namespace lensgraph::cli {
 
-struct ComparedPicture {
+struct ComparePagePicture {
   std::string name;                           ///< As the page shows it; need not be unique.
   engine::FloatImage image;                   ///< Of the reference's size.
   std::optional<engine::FloatImage> flipMap;  ///< One channel, 0…1, of the same size.
@@ -20,23 +20,23 @@ struct ComparedPicture {
   nlohmann::ordered_json figures;
 };
 
-struct ComparedMask {
+struct ComparePageMask {
   std::string name;         ///< Unique.
   engine::FloatImage mask;  ///< One channel, of the reference's size; pixels above 0 belong to the mask.
 };
 
-struct Comparison {
+struct ComparePageContent {
   std::string title;          ///< Heading of the page.
   std::string program;        ///< Version and commit of the program, as the page's head shows it; may be empty.
   double exposureEv = 0.0;    ///< Stops by which pictures are brightened before they are displayed.
   std::string referenceName;  ///< As the page shows it.
   engine::FloatImage reference;
-  std::vector<ComparedPicture> pictures;  ///< At least one.
-  std::vector<ComparedMask> masks;
+  std::vector<ComparePagePicture> pictures;  ///< At least one.
+  std::vector<ComparePageMask> masks;
 };
 
 /// One self-contained HTML document. `longestSide`: px; larger pictures are scaled down for the page.
 /// Throws engine::Error when the program was built without d3.
-std::string comparePage(const Comparison& comparison, uint32_t longestSide = kLongestSideInPages);
+std::string comparePage(const ComparePageContent& comparison, uint32_t longestSide = kLongestSideInPages);
 
 }  // namespace lensgraph::cli

@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "engine/image/image_io.h"
-#include "engine/image/metrics.h"
+#include "engine/image/srgb.h"
+#include "engine/metrics/displayed.h"
 
 namespace lensgraph::cli {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/image/metrics.h"
+#include "engine/metrics/metrics.h"
 #include "multilayer_filtering_fixture.h"
 #include "tests/support/gpu/spot.h"
 

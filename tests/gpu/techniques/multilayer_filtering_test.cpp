@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "engine/image/metrics.h"
+#include "engine/metrics/metrics.h"
 #include "multilayer_filtering_fixture.h"
 #include "tests/support/gpu/spot.h"
 

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "engine/draw/environment.h"
-#include "engine/image/metrics.h"
+#include "engine/metrics/metrics.h"
 #include "tests/support/gpu/gpu_test.h"
 #include "tests/support/gpu/spot.h"
 #include "tests/support/gpu/test_scenes.h"

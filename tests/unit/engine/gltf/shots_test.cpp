@@ -9,7 +9,7 @@
 
 #include "engine/gltf/load_gltf.h"
 #include "engine/image/image_io.h"
-#include "engine/image/metrics.h"
+#include "engine/metrics/metrics.h"
 #include "tests/support/temporary_folder.h"
 
 namespace lensgraph {

@@ -8,7 +8,8 @@
 #include <cstring>
 #include <limits>
 
-#include "engine/image/metrics.h"
+#include "engine/image/srgb.h"
+#include "engine/metrics/displayed.h"
 #include "image/image_test.h"
 #include "raw_png.h"
 #include "tests/support/temporary_folder.h"

@@ -1,5 +1,5 @@
 // Metrics against closed forms and against a second, direct implementation of the published formulas.
-#include "engine/image/metrics.h"
+#include "engine/metrics/metrics.h"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +8,9 @@
 #include <random>
 
 #include "engine/error.h"
+#include "engine/image/srgb.h"
+#include "engine/metrics/displayed.h"
+#include "engine/metrics/ssim.h"
 
 namespace lensgraph {
 

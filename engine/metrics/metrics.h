@@ -1,14 +1,13 @@
-// How far a picture is from its reference.
+// How far a picture is from its reference, in the figures that papers quote: PSNR, SSIM, maximum error, relative RMSE.
 //
-// PSNR and SSIM are of the displayed picture: exposure, clamp to [0,1], sRGB encoding, kept in float (no
-// 8-bit step). SSIM after Wang, Bovik, Sheikh, Simoncelli 2004 on Rec.709 luma of the encoded values; 11x11
-// Gaussian, sigma 1.5, K1 0.01, K2 0.03, population covariance, borders of 5 px left out: scikit-image's
-// structural_similarity( gaussian_weights=True, sigma=1.5, use_sample_covariance=False, data_range=1). Does
-// not do: FLIP, colour spaces other than linear Rec.709.
+// PSNR, SSIM and the maximum error are of the displayed pictures (displayed.h). SSIM (ssim.h) is of the Rec.709 luma of
+// the encoded values. FLIP is in flip.h and hdr_flip.h. Does not do: colour spaces other than linear Rec.709.
 #pragma once
 
 #include <cstdint>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "engine/image/image.h"
 
@@ -33,21 +32,18 @@ struct Metrics {
   uint64_t nonFiniteReference = 0;  ///< The same for the reference.
 };
 
+/// Throws Error unless both have pixels, the same size, and 1, 3 or 4 channels: what every comparison requires.
+void requireComparable(const FloatImage& image, const FloatImage& reference);
+
 /// Compares RGB of two pictures of equal size. Displayed, NaN is black and ±infinity is 1 or 0: a NaN counts
 /// as an error against a bright reference. In linear light pixels that are not finite in both pictures are
-/// left out; the counts say how many. Throws Error: sizes differ, picture without pixels, mask of another
-/// size or without a pixel above 0.
+/// left out; the counts say how many. Works in bands of rows, so that it needs little memory beside the pictures.
+/// Throws Error: as requireComparable(); a mask of another size or without a pixel above 0.
 Metrics compareImages(const FloatImage& image, const FloatImage& reference, const MetricsOptions& options = {});
 
-/// The displayed picture of a linear one, RGB (one channel stays one), float in [0,1]; alpha is dropped.
-FloatImage displayed(const FloatImage& image, double exposureEv);
-
-/// The map whose mean is SSIM: one channel, full size (borders too, mirrored), of two one-channel pictures in
-/// [0,1].
-FloatImage ssimMap(const FloatImage& a, const FloatImage& b);
-
-/// IEC 61966-2-1. Defined for [0,1]; continued below 0 and above 1 by the same formula.
-float srgbFromLinear(float linear);
-float linearFromSrgb(float encoded);
+/// The same for several masks in one go over the pictures: one result for each mask, in their order. A null mask selects
+/// all pixels; a mask that selects none gives no result. Throws Error: as requireComparable(); a mask of another size.
+std::vector<std::optional<Metrics>> compareUnderMasks(const FloatImage& image, const FloatImage& reference,
+                                                      double exposureEv, std::span<const FloatImage* const> masks);
 
 }  // namespace lensgraph::engine

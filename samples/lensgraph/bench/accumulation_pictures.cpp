@@ -1,0 +1,81 @@
+// One progressive run, its intermediate pictures kept: see accumulation_pictures.h.
+#include "samples/lensgraph/bench/accumulation_pictures.h"
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "engine/files/output_file.h"
+#include "engine/image/image_io.h"
+#include "samples/lensgraph/bench/bench_case.h"
+#include "samples/lensgraph/bench/names.h"
+#include "samples/lensgraph/capture/capture_file.h"
+#include "samples/lensgraph/version.h"
+
+namespace lensgraph::cli {
+namespace {
+
+using nlohmann::json;
+using std::filesystem::path;
+
+/// Views an execution adds: as many as the curve's first point has.
+constexpr int kViewsPerExecution = kFirstCurveSamples;
+
+std::vector<int> curveSamples() {
+  std::vector<int> samples;
+  for (int views = kFirstCurveSamples; views <= kLastCurveSamples; views *= 2) samples.push_back(views);
+  return samples;
+}
+
+path placeOf(const host::Shot& shot, int samples, const std::string& caseId, const path& folder) {
+  const std::string content = hashOfFiles(filesOf(shot)) + std::to_string(shot.width) + "x" +
+                              std::to_string(shot.height) + std::string(host::nameOf(shot.faces)) +
+                              std::to_string(samples);
+  return folder / (fileNameOf(caseId) + "_" + hashOfText(content));
+}
+
+path pictureFile(const path& place, int samples) {
+  return place / ("views_" + std::to_string(samples) + ".exr");
+}
+
+/// Written last: where it stands, all pictures do.
+path completionFile(const path& place) {
+  return place / "complete.json";
+}
+
+void render(host::Renderer& renderer, const host::Shot& shot, int samples, const path& place,
+            const std::function<void(double)>& progress) {
+  std::filesystem::create_directories(place);
+  host::RenderOptions options;
+  options.technique = "accumulation";
+  options.parameters = {{"lensSamples", int64_t{samples}}, {"viewsPerFrame", int64_t{kViewsPerExecution}}};
+  options.progress = [&](uint32_t done, uint32_t total) { progress(static_cast<double>(done) / total); };
+  for (const int views : curveSamples()) {
+    options.intermediateAt.push_back(static_cast<uint32_t>(views / kViewsPerExecution));
+  }
+  options.intermediate = [&](uint32_t executions, const engine::FloatImage& color) {
+    engine::writeImage(pictureFile(place, static_cast<int>(executions) * kViewsPerExecution), color);
+  };
+  const auto rendering = renderer.render(shot, options);
+  engine::writeImage(pictureFile(place, samples), rendering.color);
+  engine::writeFile(completionFile(place), json{{"samples", samples}, {"commit", kCommit}}.dump(2) + "\n");
+}
+
+}  // namespace
+
+AccumulationPictures accumulationPictures(host::Renderer& renderer, const host::Shot& shot, int samples,
+                                          const std::string& caseId, const path& folder,
+                                          const std::function<void(double)>& progress) {
+  const path place = placeOf(shot, samples, caseId, folder);
+  if (!std::filesystem::exists(completionFile(place))) render(renderer, shot, samples, place, progress);
+  AccumulationPictures pictures;
+  for (const int views : curveSamples()) {
+    pictures.curve.push_back({views, engine::readImage(pictureFile(place, views))});
+  }
+  pictures.reference = engine::readImage(pictureFile(place, samples));
+  std::ifstream stream(completionFile(place));
+  const auto facts = json::parse(stream, nullptr, false);
+  if (facts.is_object()) pictures.commit = facts.value("commit", "");
+  return pictures;
+}
+
+}  // namespace lensgraph::cli

@@ -1,0 +1,41 @@
+// Measures what a benchmark asks for and writes it into its journal; what the journal already holds is not repeated.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "engine/vulkan/device.h"
+#include "samples/lensgraph/bench/bench_case.h"
+#include "samples/lensgraph/bench/bench_config.h"
+#include "samples/lensgraph/bench/journal.h"
+#include "samples/lensgraph/bench/other_program.h"
+
+namespace lensgraph::cli {
+
+struct BenchRunOptions {
+  std::filesystem::path folder;      ///< Pictures go to folder/pictures.
+  std::filesystem::path references;  ///< Folder of accumulation_pictures.h.
+  std::string device;                ///< As --device takes it, for other programs; empty: none given.
+};
+
+/// Share of the work that is done, 0…1 from where this run began, and what is being done.
+using BenchProgress = std::function<void(double share, const std::string& what)>;
+
+/// Names that units of time have among the variants of a journal's turns.
+inline constexpr const char* kPinholeUnit = "unit pinhole";
+inline constexpr const char* kCopyUnit = "unit copy";
+inline constexpr const char* kViewUnit = "unit accumulationView";
+
+/// Views that a turn of kViewUnit renders; its times are of one of them.
+inline constexpr int kUnitViews = 8;
+
+/// Measures the cases one after another. In each: references and masks; then a picture of every variant with its quality,
+/// memory and times by pass; then the turns, units and variants and programs taking one each before the next round.
+/// Throws what rendering throws; the journal then holds what was measured before.
+void measureCases(engine::Device& device, const BenchConfig& config, const std::vector<BenchCase>& cases,
+                  std::vector<OtherProgram>& programs, const BenchRunOptions& options, Journal& journal,
+                  const BenchProgress& progress);
+
+}  // namespace lensgraph::cli

@@ -1,0 +1,145 @@
+// lensgraph bench: techniques × parameters × shots × sizes, measured in turns, as JSON, a table and a page.
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "engine/error.h"
+#include "engine/files/output_file.h"
+#include "samples/lensgraph/bench/bench_case.h"
+#include "samples/lensgraph/bench/bench_config.h"
+#include "samples/lensgraph/bench/bench_document.h"
+#include "samples/lensgraph/bench/bench_run.h"
+#include "samples/lensgraph/bench/journal.h"
+#include "samples/lensgraph/bench/other_program.h"
+#include "samples/lensgraph/capture/capture_file.h"
+#include "samples/lensgraph/commands/bench_output.h"
+#include "samples/lensgraph/progress.h"
+#include "samples/lensgraph/session.h"
+#include "samples/lensgraph/subcommands.h"
+#include "samples/lensgraph/version.h"
+
+namespace lensgraph::cli {
+namespace {
+
+using nlohmann::ordered_json;
+using std::filesystem::path;
+
+constexpr const char* kQuick = "quick";
+
+BenchConfig configOf(const BenchArguments& arguments) {
+  BenchConfig config;
+  if (arguments.config == kQuick) {
+    const std::vector<path> own = {LENSGRAPH_SAMPLE_SCENES};
+    config = quickBench(findShots(arguments.shots.empty() ? own : arguments.shots));
+  } else {
+    config = readBenchConfig(arguments.config);
+    if (!arguments.shots.empty()) config.shots = findShots(arguments.shots);
+  }
+  if (arguments.repeats) config.repeats = *arguments.repeats;
+  return config;
+}
+
+void makeFolder(const path& folder) {
+  std::error_code code;
+  std::filesystem::create_directories(folder, code);
+  if (!std::filesystem::is_directory(folder)) {
+    throw engine::Error({.file = folder.string(),
+                         .field = "--output",
+                         .reason = "cannot be made: " + (code ? code.message() : "a file is in its place"),
+                         .remedy = "choose another folder"});
+  }
+  engine::requireWritable(folder / "bench.json", "--output");
+}
+
+/// As the system names it; empty where it does not.
+std::string processorName() {
+  std::ifstream stream("/proc/cpuinfo");
+  for (std::string line; std::getline(stream, line);) {
+    if (line.starts_with("model name")) return line.substr(std::min(line.find(": ") + 2, line.size()));
+  }
+  return {};
+}
+
+ordered_json programsJson(const std::vector<OtherProgram>& programs) {
+  ordered_json all = {{{"name", "this"}, {"version", std::string("lensgraph ") + kVersion}, {"commit", kCommit}}};
+  for (const auto& program : programs) {
+    all.push_back({{"name", program.name()}, {"version", program.version()}, {"commit", program.commit()}});
+  }
+  return all;
+}
+
+/// What holds for the whole benchmark; see benchDocument().
+ordered_json factsOf(const BenchConfig& config, const engine::DeviceDescription& device, const Shard& shard,
+                     const std::vector<OtherProgram>& programs) {
+  return {{"name", config.name},
+          {"programs", programsJson(programs)},
+          {"device", toJson(device)},
+          {"host", {{"processor", processorName()}, {"cores", std::thread::hardware_concurrency()}}},
+          {"settings",
+           {{"repeats", config.repeats},
+            {"exposureEv", config.exposureEv},
+            {"referenceSamples", config.referenceSamples},
+            {"config", hashOf(config)}}},
+          {"shard", nameOf(shard)}};
+}
+
+/// What must not change between two runs into one folder.
+ordered_json identityOf(const ordered_json& facts) {
+  ordered_json programs = ordered_json::array();
+  for (const auto& program : facts["programs"]) {
+    programs.push_back(program["name"].get<std::string>() + " " + program["commit"].get<std::string>());
+  }
+  return {{"format", "lensgraph bench journal"},
+          {"config", facts["settings"]["config"]},
+          {"commit", kCommit},
+          {"programs", programs.dump()},
+          {"device", facts["device"]["name"]},
+          {"driver", facts["device"]["driver"]},
+          {"processor", facts["host"]["processor"]},
+          {"shard", facts["shard"]}};
+}
+
+void checkPrograms(const std::vector<OtherProgram>& programs) {
+  for (std::size_t i = 0; i < programs.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (programs[i].name() != programs[j].name()) continue;
+      throw engine::Error({.file = "command line",
+                           .field = "--program " + programs[i].name(),
+                           .reason = "is given twice",
+                           .remedy = "give each program a name of its own"});
+    }
+  }
+}
+
+}  // namespace
+
+int runBench(const BenchArguments& arguments, const GlobalArguments& global) {
+  const Shard shard = arguments.shard.empty() ? Shard{} : parseShard(arguments.shard);
+  const BenchConfig config = configOf(arguments);
+  const auto cases = casesOf(config, shard);
+  std::vector<OtherProgram> programs;
+  for (const auto& text : arguments.programs) programs.emplace_back(text);
+  checkPrograms(programs);
+  const path folder = std::filesystem::absolute(arguments.output);
+  makeFolder(folder);
+
+  Session session(global);
+  const auto facts = factsOf(config, session.device().description(), shard, programs);
+  Journal journal(folder, identityOf(facts));
+  const BenchRunOptions options{
+      .folder = folder, .references = arguments.references.value_or(folder / "references"), .device = global.device};
+  {
+    ProgressBar bar(config.name);
+    constexpr double kSteps = 10'000.0;
+    measureCases(session.device(), config, cases, programs, options, journal,
+                 [&](double share, const std::string& what) {
+                   bar.label(what);
+                   bar.update(static_cast<uint32_t>(share * kSteps), static_cast<uint32_t>(kSteps));
+                 });
+  }
+  writeBench(benchDocument(facts, journal), folder);
+  return session.finish();
+}
+
+}  // namespace lensgraph::cli
