@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "engine/image/image_io.h"
-#include "engine/image/metrics.h"
+#include "engine/image/srgb.h"
 #include "tests/support/temporary_folder.h"
 
 namespace lensgraph {
