@@ -190,6 +190,10 @@ TEST_F(BenchPage, SwitchesBetweenLightAndDark) {
   expectSwitchesBetweenLightAndDark();
 }
 
+TEST_F(BenchPage, FollowsTheSystemsColors) {
+  expectFollowsTheSystemsColors();
+}
+
 TEST_F(BenchPage, FitsNarrowWindows) {
   expectFitsNarrowWindows();
 }

@@ -105,6 +105,10 @@ TEST_F(CapturePage, TheGraphMovesAndGrows) {
   EXPECT_NE(browser().evaluate(transform), before);
 }
 
+TEST_F(CapturePage, FollowsTheSystemsColors) {
+  expectFollowsTheSystemsColors();
+}
+
 TEST_F(CapturePage, FitsNarrowWindows) {
   expectFitsNarrowWindows();
 }

@@ -83,6 +83,16 @@ TEST_F(ComparePage, ARowAndTheViewerChooseThePicture) {
   EXPECT_EQ(browser().evaluate(chosen), json({"first.exr", "0"}));
 }
 
+TEST_F(ComparePage, ShowsBothSideBySideWhereThereIsRoom) {
+  browser().click("#viewer [data-value=side]");
+  browser().hover("#viewer canvas", {0.01, 0.5});
+  EXPECT_THAT(browser().text("#viewer .read-out"), HasSubstr("pixel 0, 8"));
+  browser().hover("#viewer canvas", {0.99, 0.5});
+  EXPECT_THAT(browser().text("#viewer .read-out"), HasSubstr("pixel 23, 8"));
+  browser().hover("#viewer canvas", {0.51, 0.5});
+  EXPECT_THAT(browser().text("#viewer .read-out"), HasSubstr("pixel 0, 8"));
+}
+
 TEST_F(ComparePage, OffersEveryMask) {
   EXPECT_EQ(browser().evaluate("[...document.querySelectorAll('#viewer input[type=checkbox]')].map(i => i.value)"),
             json({"nearEdge", "inFocus"}));
@@ -93,6 +103,10 @@ TEST_F(ComparePage, OffersEveryMask) {
 
 TEST_F(ComparePage, SwitchesBetweenLightAndDark) {
   expectSwitchesBetweenLightAndDark();
+}
+
+TEST_F(ComparePage, FollowsTheSystemsColors) {
+  expectFollowsTheSystemsColors();
 }
 
 TEST_F(ComparePage, FitsNarrowWindows) {

@@ -70,6 +70,10 @@ TEST_F(DemoPage, AnotherPictureCanBeChosenOnEitherSide) {
   EXPECT_EQ(browser().evaluate("document.querySelector('img.under').getAttribute('src')"), "pinhole.png");
 }
 
+TEST_F(DemoPage, FollowsTheSystemsColors) {
+  expectFollowsTheSystemsColors();
+}
+
 TEST_F(DemoPage, FitsNarrowWindows) {
   expectFitsNarrowWindows();
 }

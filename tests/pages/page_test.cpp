@@ -38,11 +38,23 @@ void PageTest::expectFitsNarrowWindows() {
   }
 }
 
+json PageTest::colors() {
+  return browser_->evaluate(R"js((() => {
+    const { color, backgroundColor } = getComputedStyle(document.body);
+    const context = new OffscreenCanvas(1, 1).getContext("2d", { willReadFrequently: true });
+    const luminance = name => {
+      context.fillStyle = name;
+      context.fillRect(0, 0, 1, 1);
+      const [r, g, b] = Array.from(context.getImageData(0, 0, 1, 1).data).map(v => v / 255)
+        .map(v => v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4);
+      return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+    };
+    const [light, dark] = [luminance(color), luminance(backgroundColor)].sort((a, b) => b - a);
+    return [color, backgroundColor, (light + 0.05) / (dark + 0.05)];
+  })())js");
+}
+
 void PageTest::expectSwitchesBetweenLightAndDark() {
-  const auto colors = [&] {
-    return browser_->evaluate(
-        "(({ color, backgroundColor }) => [color, backgroundColor])(getComputedStyle(document.body))");
-  };
   browser_->open(file_);
   const json light = colors();
   browser_->click("#theme");
@@ -55,6 +67,18 @@ void PageTest::expectSwitchesBetweenLightAndDark() {
   EXPECT_EQ(colors(), dark);
   browser_->click("#theme");
   EXPECT_EQ(colors(), light);
+}
+
+void PageTest::expectFollowsTheSystemsColors() {
+  browser_->open(file_);
+  const json light = colors();
+  browser_->open(file_, {.prefersDark = true});
+  const json dark = colors();
+  EXPECT_NE(light[0], dark[0]);
+  EXPECT_NE(light[1], dark[1]);
+  // What WCAG 2 asks of text at its strictest level.
+  EXPECT_GT(light[2].get<double>(), 7.0);
+  EXPECT_GT(dark[2].get<double>(), 7.0);
 }
 
 }  // namespace lensgraph::page_test

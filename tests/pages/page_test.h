@@ -30,10 +30,15 @@ class PageTest : public testing::Test {
   void expectFitsNarrowWindows();
   /// The theme's button switches text and background, away from what the system prefers and back.
   void expectSwitchesBetweenLightAndDark();
+  /// Text and background are others where the system prefers dark colors, and the text can be read on both.
+  void expectFollowsTheSystemsColors();
 
  private:
   test::TemporaryFolder folder_;
   static std::optional<Browser> browser_;  ///< One for all tests of the process: a start takes longer than a test.
+  /// The CSS colors of the page's text and background, and the contrast between them as WCAG 2 defines it.
+  nlohmann::json colors();
+
   std::filesystem::path file_;
 };
 

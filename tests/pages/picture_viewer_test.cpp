@@ -64,8 +64,10 @@ TEST_F(PictureViewer, SwitchesBetweenPictureReferenceAndBoth) {
   pressMode("other");
   EXPECT_EQ(colorAt(0.4, 0.3), reference_);
   pressMode("side");
-  EXPECT_EQ(colorAt(0.25, 0.5), picture_);
-  EXPECT_EQ(colorAt(0.75, 0.5), reference_);
+  EXPECT_EQ(colorAt(0.5, 0.25), picture_);
+  EXPECT_EQ(colorAt(0.5, 0.75), reference_);
+  browser().hover(kCanvas, {0.99, 0.98});
+  EXPECT_THAT(browser().text("#viewer .read-out"), HasSubstr("pixel 23, 15"));
   browser().click(kCanvas);
   browser().press("1");
   EXPECT_EQ(state("mode"), "picture");
@@ -108,6 +110,14 @@ TEST_F(PictureViewer, ZoomsAndPansAndTellsPixels) {
   EXPECT_THAT(browser().text("#viewer .read-out"), HasSubstr("pixel 18, 11"));
   browser().press("0");
   EXPECT_NEAR(std::stod(state("zoom").get<std::string>()), before, 0.01);
+}
+
+TEST_F(PictureViewer, FillsTheScreenAndLeavesIt) {
+  browser().click("#viewer [aria-label='full screen']");
+  EXPECT_TRUE(browser().becomesTrue("document.fullscreenElement?.id === 'viewer'"));
+  browser().evaluate("document.querySelector('#viewer canvas').focus()");
+  browser().press("f");
+  EXPECT_TRUE(browser().becomesTrue("document.fullscreenElement === null"));
 }
 
 TEST_F(PictureViewer, TintsMasksOverThePicture) {

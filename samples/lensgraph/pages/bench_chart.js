@@ -1,4 +1,5 @@
-// Pareto charts: quality over time, a point per variant, the curve of accumulation, the front; small ones for the overview.
+// Pareto charts: quality over time with a point per variant, the curve of accumulation and the Pareto front; small ones
+// for the overview.
 
 /// Scales that hold everything; better is up. Infinite quality goes to the upper edge.
 function chartScales(points, curve, view, inner) {
@@ -112,7 +113,8 @@ function drawPoints(svg, points, scales, view, selected, select) {
 function drawCurveSteps(svg, curve, { x, y }, view) {
   let last = -Infinity;
   for (const step of curve) {
-    const group = svg.append("g").attr("class", "step").attr("transform", `translate(${x(step.time)},${y(step.quality)})`);
+    const group = svg.append("g").attr("class", "step")
+      .attr("transform", `translate(${x(step.time)},${y(step.quality)})`);
     group.append("circle").attr("r", 9).attr("fill", "transparent");
     group.append("circle").attr("r", 3);
     if (x(step.time) - last > 22) {

@@ -48,7 +48,8 @@ const sameVariantOf = (shot, result, program) =>
 const alone = value => value === null ? null : { median: value, min: value, max: value };
 const statedRatio = (result, name) => result.ratios ? result.ratios[name] : null;
 
-/// Time axes: `short` heads columns; `of(result, shot)` is a spread; `accumulation(shot, samples)` is the time of so many views, or null.
+/// Time axes: `short` heads columns; `of(result, shot)` is a spread; `accumulation(shot, samples)`
+/// is the time of so many views of accumulation, or null.
 const viewsOf = (shot, clock, samples) => {
   const view = spreadOf(shot.units && shot.units.accumulationView, clock);
   return view ? samples * view.median : null;

@@ -41,7 +41,8 @@ function geometricMean(values) {
 
 function matrixColumns(figure, view) {
   const valueIn = (row, index) => row.inShot[index] ? figure.of(row.inShot[index], shots[index]) : null;
-  const rows = matrixRows().filter(row => view.techniques.has(row.result.technique) && view.programs.has(row.result.program));
+  const rows = matrixRows()
+    .filter(row => view.techniques.has(row.result.technique) && view.programs.has(row.result.program));
   const meanOf = row => {
     const values = shots.map((_, index) => valueIn(row, index));
     if (values.some(value => value === null)) return null;

@@ -86,11 +86,12 @@ function drawShotFacts() {
   const shot = shotOf(), box = byId("shot-facts");
   box.replaceChildren();
   fact(box, "size", `${shot.width} × ${shot.height} px`);
-  if (shot.triangles !== undefined && shot.triangles !== null) fact(box, "triangles", shot.triangles.toLocaleString("en"));
+  if (numberOf(shot.triangles) !== null) fact(box, "triangles", shot.triangles.toLocaleString("en"));
   fact(box, "file", shot.file || kNone);
   fact(box, "scene", shot.sceneHash || kNone);
   const reference = shot.reference || {};
-  fact(box, "reference", reference.samples ? `${reference.kind}, ${reference.samples} lens samples` : reference.kind || kNone);
+  fact(box, "reference", reference.samples
+    ? `${reference.kind}, ${reference.samples} lens samples` : reference.kind || kNone);
   for (const [name, share] of Object.entries(shot.masks || {})) fact(box, name, percent(numberOf(share)));
 }
 
@@ -98,7 +99,8 @@ const viewer = makePictureViewer(byId("viewer"), key => select(key));
 function showShotInViewer() {
   const shot = shotOf(), reference = shot.reference || {}, maskPictures = shot.maskPictures || {};
   viewer.show({ reference: { name: "reference", uri: reference.picture },
-    pictures: shot.results.map(result => ({ id: result.key, name: nameOf(result), uri: result.picture, map: result.flipMap })),
+    pictures: shot.results.map(result => ({ id: result.key, name: nameOf(result), uri: result.picture,
+      map: result.flipMap })),
     masks: Object.entries(maskPictures).filter(([, uri]) => uri).map(([name, uri]) => ({ name, uri })) }, selectedKey);
 }
 
@@ -133,21 +135,26 @@ const spreadText = spread => spread && spread.min < spread.max ? `${brief(spread
 const spreadColumn = (group, name, title, of) => ({ group, name, title, more: result => spreadText(of(result)),
   value: result => { const spread = of(result); return spread ? spread.median : null; },
   text: result => { const spread = of(result); return brief(spread ? spread.median : null); } });
-const plainColumn = (group, name, title, value, show) => ({ group, name, title, value, text: result => show(value(result)) });
+const plainColumn = (group, name, title, value, show) => ({ group, name, title, value,
+  text: result => show(value(result)) });
+const countText = value => value === null ? kNone : String(value);
 const timeColumn = axis => spreadColumn(axis.unit === "ms" ? "times" : "ratios", axis.short,
   `${axis.text}: median, least … largest`, result => axis.of(result, shotOf()));
+const qualityColumn = (group, axis, mask) => plainColumn(group, mask ? `${mask} ${axis.text}` : axis.text,
+  mask ? `within ${mask}` : "of the whole picture", result => qualityOf(result, axis, mask),
+  value => fixed(value, axis.digits));
 const memoryOf = name => result => result.memory ? numberOf(result.memory[name]) : null;
 
 const figureColumns = [
   { name: "variant", isText: true, value: nameOf, text: result => result.technique, more: changedText },
   ...(programs.length > 1 ? [{ name: "program", isText: true, value: r => r.program, text: r => r.program }] : []),
-  ...timeAxes.filter(axis => axis.unit === "×").map(timeColumn), ...timeAxes.filter(axis => axis.unit === "ms").map(timeColumn),
-  ...qualityAxes.map(axis => plainColumn("quality", axis.text, "of the whole picture", result => qualityOf(result, axis, ""),
-    value => fixed(value, axis.digits))),
-  plainColumn("quality", "not finite", "pixels that are not finite", r => r.quality ? numberOf(r.quality.nonFinitePixels) : null,
-    value => value === null ? kNone : String(value)),
-  ...maskNames.flatMap(mask => qualityAxes.slice(0, 2).map(axis => plainColumn("masks", `${mask} ${axis.text}`, `within ${mask}`,
-    result => qualityOf(result, axis, mask), value => fixed(value, axis.digits)))),
+  ...timeAxes.filter(axis => axis.unit === "×").map(timeColumn),
+  ...timeAxes.filter(axis => axis.unit === "ms").map(timeColumn),
+  ...qualityAxes.map(axis => qualityColumn("quality", axis, "")),
+  plainColumn("quality", "not finite", "pixels that are not finite",
+    result => result.quality ? numberOf(result.quality.nonFinitePixels) : null, countText),
+  ...maskNames.flatMap(mask => qualityAxes.filter(axis => isMeasured(axis, mask))
+    .map(axis => qualityColumn("masks", axis, mask))),
   plainColumn("memory", "graph memory", "of the render graph's own resources", memoryOf("graphBytes"), bytes),
   plainColumn("memory", "process memory", "peak of the whole process", memoryOf("processBytes"), bytes),
 ];
@@ -155,7 +162,8 @@ const figureTable = sortableTable(byId("figures"), "All figures of the shot", re
 const groupsShown = new Set(["ratios", "times", "quality"]);
 const drawFigureColumns = () => figureTable.setColumns(figureColumns.filter(c => !c.group || groupsShown.has(c.group)));
 for (const group of ["ratios", "times", "quality", "masks", "memory"]) {
-  const button = element(byId("figure-groups"), "button", { type: "button", "aria-pressed": groupsShown.has(group) }, group);
+  const attributes = { type: "button", "aria-pressed": groupsShown.has(group) };
+  const button = element(byId("figure-groups"), "button", attributes, group);
   button.addEventListener("click", () => {
     groupsShown[groupsShown.has(group) ? "delete" : "add"](group);
     button.setAttribute("aria-pressed", groupsShown.has(group));
@@ -171,8 +179,12 @@ function drawMatrix() {
   matrix.setRows(rows);
   matrix.mark(selectedKey);
 }
-selection(byId("matrix-controls"), "figure", matrixFigures.map(figure => ({ value: figure.id, text: figure.text })),
-  matrixFigure.id, id => { matrixFigure = matrixFigures.find(figure => figure.id === id); drawMatrix(); }).id = "matrix-figure";
+const figureChoice = selection(byId("matrix-controls"), "figure",
+  matrixFigures.map(figure => ({ value: figure.id, text: figure.text })), matrixFigure.id, id => {
+    matrixFigure = matrixFigures.find(figure => figure.id === id);
+    drawMatrix();
+  });
+figureChoice.id = "matrix-figure";
 
 // ---- Choices
 
@@ -222,7 +234,9 @@ function chooseShot(index) {
 
 drawHead();
 addControls();
-selection(byId("shot-choice"), "shot", shots.map((shot, i) => ({ value: i, text: shotName(shot) })), 0, chooseShot).id = "shot";
+const shotChoice = selection(byId("shot-choice"), "shot", shots.map((shot, i) => ({ value: i, text: shotName(shot) })), 0,
+  chooseShot);
+shotChoice.id = "shot";
 drawFigureColumns();
 chooseShot(0);
 drawView();

@@ -189,7 +189,7 @@ function drawGraph() {
   const svg = d3.select("#graph").append("svg").attr("viewBox", [0, 0, kWidth, height]);
   svg.append("defs").append("marker").attr("id", "arrow").attr("viewBox", "0 0 8 8").attr("refX", 7).attr("refY", 4)
     .attr("markerUnits", "userSpaceOnUse").attr("markerWidth", 9).attr("markerHeight", 9).attr("orient", "auto")
-    .append("path").attr("d", "M0,0L8,4L0,8z").attr("fill", "#93a1b0");
+    .append("path").attr("d", "M0,0L8,4L0,8z").style("fill", "var(--edge)");
   const all = svg.append("g");
   const zoom = d3.zoom().scaleExtent([0.05, 4]).on("zoom", () => all.attr("transform", d3.event.transform));
   const scale = Math.min(1, kWidth / size.width, height / size.height);
@@ -212,8 +212,9 @@ function drawGraph() {
     const { width, height: h } = layout.node(node.id);
     d3.select(this).attr("x", -width / 2).attr("y", -h / 2).attr("width", width).attr("height", h)
       .attr("rx", node.pass ? 5 : 14)
-      .attr("fill", node.pass ? d3.interpolateRgb("#fff", kKindColors[node.pass.kind] || "#888")(0.22) : "#fff")
-      .attr("stroke", node.pass ? kKindColors[node.pass.kind] || "#888" : "#93a1b0")
+      .style("fill", node.pass
+        ? `color-mix(in srgb, ${kKindColors[node.pass.kind] || "#888"} 22%, var(--paper))` : "var(--paper)")
+      .attr("stroke", node.pass ? kKindColors[node.pass.kind] || "#888" : "#8793a1")
       .attr("stroke-dasharray", node.pass ? null : "4 3");
   });
   boxes.each(function (node) {
@@ -230,7 +231,7 @@ function drawGraph() {
     item.append("span").text(kind);
   }
   const item = d3.select("#kinds").append("span");
-  item.append("i").style("border", "1px dashed #93a1b0");
+  item.append("i").style("border", "1px dashed var(--edge)");
   item.append("span").text("from outside the frame, or seen after it");
 }
 
@@ -257,14 +258,14 @@ function drawTimes(sorted) {
   inside.append("g").attr("class", "axis").attr("transform", `translate(0,${height - 36})`)
     .call(d3.axisBottom(x).ticks(8));
   inside.append("text").attr("x", x.range()[1]).attr("y", height - 6).attr("text-anchor", "end")
-    .style("fill", "#5d6b7a").text("device time, ms");
+    .style("fill", "var(--quiet)").text("device time, ms");
   const row = hoverPasses(inside.selectAll(".row").data(rows).enter().append("g")
     .attr("transform", pass => `translate(0,${y(pass.step)})`));
   row.append("rect").attr("width", pass => x(median(pass.gpuMs))).attr("height", y.bandwidth()).attr("rx", 2)
     .attr("fill", pass => kKindColors[pass.kind] || "#888");
   const middle = y.bandwidth() / 2;
   row.filter(pass => pass.gpuMs !== null && graph.frames > 1)
-    .append("path").attr("fill", "none").attr("stroke", "#1d2733")
+    .append("path").attr("fill", "none").style("stroke", "var(--ink)")
     .attr("d", ({ gpuMs }) => `M${x(gpuMs.min)},${middle}H${x(gpuMs.max)}` +
       `M${x(gpuMs.min)},${middle - 4}v8M${x(gpuMs.max)},${middle - 4}v8`);
   row.append("text").attr("x", -8).attr("y", middle + 4).attr("text-anchor", "end").text(label);
@@ -282,7 +283,7 @@ function stepAxis(inside, x, bottom) {
     .call(d3.axisBottom(x).tickValues(told)
       .tickFormat(step => step === kEnd ? "after" : step));
   inside.append("text").attr("x", x.range()[1]).attr("y", bottom + 32).attr("text-anchor", "end")
-    .style("fill", "#5d6b7a").text("step");
+    .style("fill", "var(--quiet)").text("step");
 }
 
 function drawLifetimes() {
@@ -301,7 +302,7 @@ function drawLifetimes() {
     .attr("width", r => x(r.lastStep) + x.bandwidth() - x(r.firstStep) - 2)
     .attr("height", y.bandwidth()).attr("rx", 2).attr("fill", colorOf).attr("opacity", r => r.heap === null ? 0.35 : 1);
   row.append("text").attr("x", -8).attr("y", y.bandwidth() / 2 + 4).attr("text-anchor", "end").text(label);
-  row.append("text").attr("x", x.range()[1] + 8).attr("y", y.bandwidth() / 2 + 4).style("fill", "#5d6b7a")
+  row.append("text").attr("x", x.range()[1] + 8).attr("y", y.bandwidth() / 2 + 4).style("fill", "var(--quiet)")
     .text(r => bytes(r.contentBytes));
 }
 
@@ -315,13 +316,13 @@ function drawHeap(heap, index) {
   const unit = heap.size >= 2 ** 20 ? ["MiB", 2 ** 20] : ["KiB", 2 ** 10];
   const inUnits = d3.scaleLinear([0, heap.size / unit[1]], y.range());
   inside.append("g").attr("class", "axis").call(d3.axisLeft(inUnits).ticks(5));
-  inside.append("text").attr("x", -left + 10).attr("y", 16).style("fill", "#5d6b7a").text(unit[0]);
+  inside.append("text").attr("x", -left + 10).attr("y", 16).style("fill", "var(--quiet)").text(unit[0]);
   stepAxis(inside, x, bottom);
   const block = hoverResources(inside.selectAll(".block").data(placed).enter().append("g"));
   const width = r => x(r.lastStep) + x.bandwidth() - x(r.firstStep) - 1;
   block.append("rect").attr("x", r => x(r.firstStep)).attr("width", width).attr("y", r => y(r.offset + r.size))
     .attr("height", r => Math.max(1.5, y(r.offset) - y(r.offset + r.size)))
-    .attr("fill", colorOf).attr("stroke", "#fff");
+    .attr("fill", colorOf).style("stroke", "var(--paper)");
   block.filter(r => y(r.offset) - y(r.offset + r.size) > 13 && width(r) > 40).append("text")
     .attr("x", r => x(r.firstStep) + 6).attr("y", r => (y(r.offset) + y(r.offset + r.size)) / 2 + 4)
     .style("fill", r => d3.lab(colorOf(r)).l > 68 ? "#1d2733" : "#fff")

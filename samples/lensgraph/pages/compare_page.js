@@ -17,7 +17,8 @@ const maskFigureOf = (mask, name) => picture => {
   return figures ? numberOf(figures[name]) : null;
 };
 const column = (name, title, value, show) => ({ name, title, value, text: picture => show(value(picture)) });
-const digits = count => value => fixed(value, count);
+const digits = places => value => fixed(value, places);
+const count = value => value === null ? kNone : String(value);
 const maskNames = [...new Set(data.pictures.flatMap(picture => Object.keys((picture.figures || {}).masks || {})))];
 const kAllColumns = [
   { name: "picture", isText: true, value: picture => picture.name, text: picture => picture.name },
@@ -26,11 +27,11 @@ const kAllColumns = [
   column("FLIP", "mean of the map; smaller is better", figureOf("flip"), digits(4)),
   column("relative RMSE", "in linear light; smaller is better", figureOf("relativeRmse"), digits(4)),
   column("largest error", "of a displayed channel, 0 to 1", figureOf("maxError"), digits(3)),
-  column("not finite", "pixels that are not finite", figureOf("nonFinitePixels"), value => value === null ? kNone : String(value)),
+  column("not finite", "pixels that are not finite", figureOf("nonFinitePixels"), count),
   ...maskNames.flatMap(mask => [
     column(`${mask} PSNR`, `dB, within ${mask}`, maskFigureOf(mask, "psnr"), digits(2)),
     column(`${mask} SSIM`, `within ${mask}`, maskFigureOf(mask, "ssim"), digits(4)),
-    column(`${mask} pixels`, `pixels in ${mask}`, maskFigureOf(mask, "pixels"), value => value === null ? kNone : String(value))]),
+    column(`${mask} pixels`, `pixels in ${mask}`, maskFigureOf(mask, "pixels"), count)]),
 ];
 // Figures that nobody measured have no column.
 const columns = kAllColumns.filter((c, i) => i === 0 || data.pictures.some(picture => c.value(picture) !== null));

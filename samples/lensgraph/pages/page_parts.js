@@ -82,7 +82,8 @@ function drawToWidth(box, draw) {
     width = box.clientWidth;
     draw(width);
   };
-  new ResizeObserver(redraw).observe(box);
+  // Not at once: what is drawn may change sizes, of which an observer in its own turn complains.
+  new ResizeObserver(() => requestAnimationFrame(redraw)).observe(box);
   redraw();
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include "engine/image/image_io.h"
 #include "engine/image/srgb.h"
@@ -13,15 +14,25 @@
 namespace lensgraph::cli {
 namespace {
 
-/// One pixel of the target takes the mean of these pixels of the source: [first, last].
-struct Range {
-  uint32_t first, last;
+/// The pixels of the source, from `first` on, whose weighted mean a pixel of the target takes.
+struct Footprint {
+  uint32_t first = 0;
+  std::vector<float> weights;  ///< Their sum is 1.
 };
 
-Range sourceOf(uint32_t target, uint32_t targetSize, uint32_t sourceSize) {
-  const auto begin = static_cast<uint32_t>(uint64_t{target} * sourceSize / targetSize);
-  const auto end = static_cast<uint32_t>(uint64_t{target + 1} * sourceSize / targetSize);
-  return {begin, std::max(begin, end - 1)};
+/// By the area that pixels of the one side cover on the other.
+std::vector<Footprint> footprints(uint32_t targetSize, uint32_t sourceSize) {
+  const double scale = static_cast<double>(sourceSize) / targetSize;
+  std::vector<Footprint> result(targetSize);
+  for (uint32_t i = 0; i < targetSize; ++i) {
+    const double begin = i * scale, end = std::min<double>(sourceSize, (i + 1) * scale);
+    result[i].first = static_cast<uint32_t>(begin);
+    for (uint32_t source = result[i].first; source < end; ++source) {
+      const double covered = std::min<double>(end, source + 1.0) - std::max<double>(begin, source);
+      result[i].weights.push_back(static_cast<float>(covered / (end - begin)));
+    }
+  }
+  return result;
 }
 
 engine::FloatImage scaledDown(engine::FloatImage image, uint32_t longestSide) {
@@ -31,18 +42,17 @@ engine::FloatImage scaledDown(engine::FloatImage image, uint32_t longestSide) {
     return std::max(1u, static_cast<uint32_t>(std::lround(static_cast<double>(longestSide) * side / longest)));
   };
   engine::FloatImage result(scaled(image.width), scaled(image.height), image.channels);
+  const auto columns = footprints(result.width, image.width), rows = footprints(result.height, image.height);
   for (uint32_t y = 0; y < result.height; ++y) {
-    const Range rows = sourceOf(y, result.height, image.height);
     for (uint32_t x = 0; x < result.width; ++x) {
-      const Range columns = sourceOf(x, result.width, image.width);
       float* target = result.pixel(x, y);
-      for (uint32_t sy = rows.first; sy <= rows.last; ++sy) {
-        for (uint32_t sx = columns.first; sx <= columns.last; ++sx) {
-          for (uint32_t c = 0; c < image.channels; ++c) target[c] += image.pixel(sx, sy)[c];
+      for (uint32_t dy = 0; dy < rows[y].weights.size(); ++dy) {
+        for (uint32_t dx = 0; dx < columns[x].weights.size(); ++dx) {
+          const float weight = rows[y].weights[dy] * columns[x].weights[dx];
+          const float* source = image.pixel(columns[x].first + dx, rows[y].first + dy);
+          for (uint32_t c = 0; c < image.channels; ++c) target[c] += weight * source[c];
         }
       }
-      const auto count = static_cast<float>((rows.last - rows.first + 1) * (columns.last - columns.first + 1));
-      for (uint32_t c = 0; c < image.channels; ++c) target[c] /= count;
     }
   }
   return result;

@@ -2,9 +2,10 @@
 //
 // makePictureViewer(box, select) draws into the element and returns {show(set, id)}. A set: {reference: {name, uri},
 // pictures: [{id, name, uri, map}], masks: [{name, uri}]}; `map` is the picture's FLIP map. `select(id)` is called when
-// the user takes another picture in the viewer itself. Pictures of one set have one size. viewer_controls.js has the buttons,
-// keys and the mouse.
-const kLargestZoom = 64, kGap = 4;
+// the user takes another picture in the viewer itself. Pictures of one set have one size. viewer_controls.js has the
+// buttons, keys and the mouse.
+const kLargestZoom = 64;
+const kGap = 4, kSideBySideFrom = 800;  // px; in a narrower canvas one view is below the other
 
 class PictureViewer extends ViewerControls {
   constructor(box, select) {
@@ -42,15 +43,14 @@ class PictureViewer extends ViewerControls {
     this.draw();
   }
   /// The point of the picture at (x, y), px of the canvas, stays where it is.
-  zoomBy(factor, x = this.viewWidth() / 2, y = this.canvas.clientHeight / 2) {
+  zoomBy(factor, x, y) {
     this.zoomTo(this.state.zoom * factor, x, y);
   }
-  zoomTo(zoom, x = this.viewWidth() / 2, y = this.canvas.clientHeight / 2) {
-    const { state } = this, side = state.mode === "side" && x > this.viewWidth() + kGap;
-    const left = side ? x - this.viewWidth() - kGap : x, before = state.zoom;
+  zoomTo(zoom, x = this.viewSize().width / 2, y = this.viewSize().height / 2) {
+    const { state } = this, from = this.fromCenter(x, y), before = state.zoom;
     state.zoom = Math.max(this.fittingZoom() / 2, Math.min(kLargestZoom, zoom));
-    state.x += (left - this.viewWidth() / 2) * (1 / before - 1 / state.zoom);
-    state.y += (y - this.canvas.clientHeight / 2) * (1 / before - 1 / state.zoom);
+    state.x += from.x * (1 / before - 1 / state.zoom);
+    state.y += from.y * (1 / before - 1 / state.zoom);
     state.isFitted = false;
     this.draw();
   }
@@ -58,13 +58,23 @@ class PictureViewer extends ViewerControls {
     this.state.isFitted = true;
     this.draw();
   }
-  viewWidth() {
-    const width = this.canvas.clientWidth;
-    return this.state.mode === "side" ? (width - kGap) / 2 : width;
+  isStacked() {
+    return this.state.mode === "side" && this.canvas.clientWidth < kSideBySideFrom;
+  }
+  /// Of each of the two views that lie beside or below each other, else of the only one, px.
+  viewSize() {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    if (this.state.mode !== "side") return { width, height };
+    return this.isStacked() ? { width, height: (height - kGap) / 2 } : { width: (width - kGap) / 2, height };
+  }
+  /// From the middle of the view in which (x, y) lies, px.
+  fromCenter(x, y) {
+    const { width, height } = this.viewSize();
+    return { x: (x > width ? x - width - kGap : x) - width / 2, y: (y > height ? y - height - kGap : y) - height / 2 };
   }
   fittingZoom() {
-    const { picture, other } = this.shown, size = picture || other;
-    return size ? Math.min(this.viewWidth() / size.width, this.canvas.clientHeight / size.height) : 1;
+    const { picture, other } = this.shown, size = picture || other, view = this.viewSize();
+    return size ? Math.min(view.width / size.width, view.height / size.height) : 1;
   }
 
   // ---- Pictures
@@ -111,7 +121,8 @@ class PictureViewer extends ViewerControls {
       masks: shown.slice(3).flatMap((mask, i) => mask ? [maskCanvas(mask, colorOf(masks[i]))] : []) };
     this.names = [picture ? picture.name : "", (otherPicture || set.reference).name];
     this.computed = {};
-    this.modes.buttons.find(button => button.dataset.value === "other").textContent = otherPicture ? "other" : "reference";
+    const otherButton = this.modes.buttons.find(button => button.dataset.value === "other");
+    otherButton.textContent = otherPicture ? "other" : "reference";
     const needs = { picture: shown[0], other: shown[1], flip: shown[2] };
     for (const button of this.modes.buttons) {
       const { value } = button.dataset;
@@ -128,7 +139,9 @@ class PictureViewer extends ViewerControls {
     const { picture, other } = this.shown, size = picture || other, width = this.canvas.clientWidth;
     if (!width) return;
     const shape = size ? size.height / size.width : 9 / 16;
-    const height = Math.round(Math.max(160, Math.min((document.fullscreenElement ? 0.86 : 0.75) * innerHeight, this.viewWidth() * shape)));
+    const isStacked = this.isStacked(), most = (document.fullscreenElement || isStacked ? 0.86 : 0.75) * innerHeight;
+    const wanted = this.viewSize().width * shape * (isStacked ? 2 : 1) + (isStacked ? kGap : 0);
+    const height = Math.round(Math.max(160, Math.min(most, wanted)));
     this.canvas.style.height = height + "px";
     this.canvas.width = Math.round(width * devicePixelRatio);
     this.canvas.height = Math.round(height * devicePixelRatio);
@@ -158,34 +171,34 @@ class PictureViewer extends ViewerControls {
       state.x = Math.max(0, Math.min(size.width, state.x));
       state.y = Math.max(0, Math.min(size.height, state.y));
     }
-    const height = canvas.clientHeight, width = canvas.clientWidth, cut = state.divider * width;
-    const [first, second] = this.views();
+    const { width, height } = this.viewSize(), cut = state.divider * width;
+    const [first, second] = this.views(), whole = { left: 0, top: 0, width, height };
     if (state.mode === "divider") {
-      this.drawView(context, first, 0, 0, cut);
-      this.drawView(context, second, 0, cut, width);
+      this.drawView(context, first, whole, 0, cut);
+      this.drawView(context, second, whole, cut, width);
       context.fillStyle = "#fff";
       context.fillRect(cut - 1, 0, 2, height);
       context.fillRect(cut - 4, height / 2 - 14, 8, 28);
-    } else if (state.mode === "side") {
-      const viewWidth = this.viewWidth();
-      this.drawView(context, first, 0, 0, viewWidth);
-      this.drawView(context, second, viewWidth + kGap, viewWidth + kGap, width);
     } else {
-      this.drawView(context, first, 0, 0, width);
+      this.drawView(context, first, whole, 0, width);
+      const place = this.isStacked() ? { top: height + kGap } : { left: width + kGap };
+      if (state.mode === "side") this.drawView(context, second, { ...whole, ...place }, 0, width);
     }
     this.tell();
   }
 
-  /// The image, and the masks over it, in a view that begins at `left`; only from `begin` to `end`, px of the canvas.
-  drawView(context, image, left, begin, end) {
-    const { state } = this, height = this.canvas.clientHeight;
+  /// The image, and the masks over it, in a view: {left, top, width, height}, px of the canvas; only its columns from
+  /// `begin` to `end`.
+  drawView(context, image, view, begin, end) {
+    const { state } = this;
     context.save();
     context.beginPath();
-    context.rect(begin, 0, Math.max(0, end - begin), height);
+    context.rect(view.left + begin, view.top, Math.max(0, end - begin), view.height);
     context.clip();
     context.imageSmoothingEnabled = state.zoom * devicePixelRatio < 1;
     context.imageSmoothingQuality = "high";
-    context.translate(left + this.viewWidth() / 2 - state.x * state.zoom, height / 2 - state.y * state.zoom);
+    const { left, top, width, height } = view;
+    context.translate(left + width / 2 - state.x * state.zoom, top + height / 2 - state.y * state.zoom);
     context.scale(state.zoom, state.zoom);
     if (image) context.drawImage(image, 0, 0);
     for (const mask of this.shown.masks || []) context.drawImage(mask, 0, 0);
@@ -196,6 +209,8 @@ class PictureViewer extends ViewerControls {
   tell() {
     const { state, shown } = this;
     Object.assign(this.box.dataset, { mode: state.mode, zoom: state.zoom.toFixed(3), gain: state.gain });
+    // A finger on the whole picture scrolls the page.
+    this.canvas.style.touchAction = state.isFitted ? "pan-y" : "none";
     this.dividerSlider.label.hidden = state.mode !== "divider";
     this.dividerSlider.text.textContent = Math.round(100 * state.divider) + " %";
     this.gainSlider.label.hidden = state.mode !== "difference";
@@ -210,12 +225,10 @@ class PictureViewer extends ViewerControls {
   valuesAt(pointer, names) {
     const { state, shown } = this, size = shown.picture || shown.other;
     if (!shown.picture) return `No picture of ${names[0]} in this file; ${names[1]} is shown.`;
-    const idle = `left or first: ${names[0]}; right or second: ${names[1]}. Point at a pixel for its values.`;
+    const idle = `${names[0]} against ${names[1]}. Point at a pixel for its values.`;
     if (!pointer) return idle;
-    const viewWidth = this.viewWidth();
-    const left = state.mode === "side" && pointer.x > viewWidth ? pointer.x - viewWidth - kGap : pointer.x;
-    const x = Math.floor((left - viewWidth / 2) / state.zoom + state.x);
-    const y = Math.floor((pointer.y - this.canvas.clientHeight / 2) / state.zoom + state.y);
+    const from = this.fromCenter(pointer.x, pointer.y);
+    const x = Math.floor(from.x / state.zoom + state.x), y = Math.floor(from.y / state.zoom + state.y);
     if (x < 0 || y < 0 || x >= size.width || y >= size.height) return idle;
     const at = picture => Array.from(picture.pixels.subarray(4 * (y * size.width + x)).subarray(0, 3));
     const parts = [`pixel ${x}, ${y}`, `${names[0]}: ${at(shown.picture).join(" ")}`];

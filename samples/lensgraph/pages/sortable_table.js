@@ -1,12 +1,13 @@
 // A table that sorts by the column whose heading is pressed, and whose rows can be selected by mouse and keyboard.
 
 /// Columns: {name, title, isText, value(row), text(row), more(row), tone(row)}: the value sorts, absent values (null) last;
-/// `more` is a second, quiet line, `tone` the cell's classes. Rows need a unique `key`. `select(row)` is called when a row is chosen; null: rows cannot be.
+/// `more` is a second, quiet line, `tone` the cell's classes. Rows need a unique `key`. `select(row)` is called when a
+/// row is chosen; null: rows cannot be.
 /// Returns {mark(key), setColumns(columns), setRows(rows)}.
 function sortableTable(table, label, select) {
   let columns = [], rows = [], sortedBy = null, isUp = true, marked = null;
-  element(table, "caption", { hidden: "" }, label);
   table.setAttribute("aria-label", label);
+  if (select) table.setAttribute("role", "grid");
   const head = element(element(table, "thead"), "tr"), body = element(table, "tbody");
 
   function ordered() {
@@ -28,7 +29,8 @@ function sortableTable(table, label, select) {
       line.addEventListener("click", () => select(row));
       line.addEventListener("keydown", event => {
         if (event.key === "Enter" || event.key === " ") { event.preventDefault(); select(row); }
-        const next = event.key === "ArrowDown" ? line.nextSibling : event.key === "ArrowUp" ? line.previousSibling : null;
+        const next = event.key === "ArrowDown" ? line.nextSibling
+          : event.key === "ArrowUp" ? line.previousSibling : null;
         if (next) { event.preventDefault(); next.focus(); }
       });
     }

@@ -1,10 +1,11 @@
-// What the user does with the picture viewer: its buttons, sliders, keys and the mouse. picture_viewer.js does what they ask.
+// What the user does with the picture viewer: its buttons, sliders, keys and the mouse. picture_viewer.js does what they
+// ask.
 
 const kModes = [
   { value: "picture", text: "picture", title: "the picture alone (1); the space bar blinks to the other one" },
   { value: "other", text: "reference", title: "the other picture alone (2)" },
   { value: "divider", text: "divider", title: "the picture left of the divider, the other one right of it (3)" },
-  { value: "side", text: "side by side", title: "both, moved together (4)" },
+  { value: "side", text: "both", title: "both, side by side or one below the other; they move together (4)" },
   { value: "difference", text: "difference", title: "absolute difference of the displayed colors, times the gain (5)" },
   { value: "flip", text: "FLIP", title: "the picture's FLIP map against the reference (6)" },
 ];
@@ -37,7 +38,7 @@ class ViewerControls {
     zoomButton("fit", "whole picture", () => this.fit());
     zoomButton("1:1", "one pixel of the picture on one of the screen", () => this.zoomTo(1 / devicePixelRatio));
     zoomButton("+", "zoom in", () => this.zoomBy(2));
-    const screen = zoomButton("⛶", "full screen", () => this.toggleFullScreen());
+    const screen = zoomButton("full", "full screen", () => this.toggleFullScreen());
     screen.hidden = !document.fullscreenEnabled;
     this.zoomText = element(zooms, "span", { class: "quiet number" });
   }
