@@ -12,10 +12,11 @@
 #include "samples/host/shot_scene.h"
 #include "samples/lensgraph/bench/accumulation_pictures.h"
 #include "samples/lensgraph/bench/case_reference.h"
-#include "samples/lensgraph/bench/child_process.h"
 #include "samples/lensgraph/bench/names.h"
-#include "samples/lensgraph/bench/screen_copy.h"
-#include "samples/lensgraph/bench/turn.h"
+#include "samples/lensgraph/bench/turns/child_process.h"
+#include "samples/lensgraph/bench/turns/screen_copy.h"
+#include "samples/lensgraph/bench/turns/turn.h"
+#include "samples/lensgraph/bench/units.h"
 #include "samples/lensgraph/capture/capture_file.h"
 
 namespace lensgraph::cli {

@@ -10,7 +10,7 @@
 #include "samples/lensgraph/bench/bench_case.h"
 #include "samples/lensgraph/bench/bench_config.h"
 #include "samples/lensgraph/bench/journal.h"
-#include "samples/lensgraph/bench/other_program.h"
+#include "samples/lensgraph/bench/turns/other_program.h"
 
 namespace lensgraph::cli {
 
@@ -22,14 +22,6 @@ struct BenchRunOptions {
 
 /// Share of the work that is done, 0…1 from where this run began, and what is being done.
 using BenchProgress = std::function<void(double share, const std::string& what)>;
-
-/// Names that units of time have among the variants of a journal's turns.
-inline constexpr const char* kPinholeUnit = "unit pinhole";
-inline constexpr const char* kCopyUnit = "unit copy";
-inline constexpr const char* kViewUnit = "unit accumulationView";
-
-/// Views that a turn of kViewUnit renders; its times are of one of them.
-inline constexpr int kUnitViews = 8;
 
 /// Measures the cases one after another. In each: references and masks; then a picture of every variant with its quality,
 /// memory and times by pass; then the turns, units and variants and programs taking one each before the next round.

@@ -5,7 +5,7 @@
 
 #include "engine/error.h"
 #include "engine/files/output_file.h"
-#include "samples/lensgraph/bench/bench_file.h"
+#include "samples/lensgraph/bench/results/bench_file.h"
 #include "samples/lensgraph/commands/bench_output.h"
 #include "samples/lensgraph/subcommands.h"
 

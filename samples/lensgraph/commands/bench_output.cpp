@@ -6,7 +6,7 @@
 
 #include "engine/files/output_file.h"
 #include "engine/metrics/flip.h"
-#include "samples/lensgraph/bench/bench_document.h"
+#include "samples/lensgraph/bench/results/bench_document.h"
 #include "samples/lensgraph/pages/bench_page.h"
 #include "samples/lensgraph/pages/embedded_page.h"
 

@@ -3,8 +3,8 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "samples/lensgraph/bench/bench_comparison.h"
-#include "samples/lensgraph/bench/bench_file.h"
+#include "samples/lensgraph/bench/results/bench_comparison.h"
+#include "samples/lensgraph/bench/results/bench_file.h"
 #include "samples/lensgraph/subcommands.h"
 
 namespace lensgraph::cli {

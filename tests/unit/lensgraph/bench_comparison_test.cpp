@@ -1,5 +1,5 @@
 // Two benchmarks held together: ratios, regressions, and what cannot be compared.
-#include "samples/lensgraph/bench/bench_comparison.h"
+#include "samples/lensgraph/bench/results/bench_comparison.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

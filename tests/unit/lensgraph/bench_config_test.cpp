@@ -18,7 +18,8 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-constexpr const char* kShot = R"({"scene": [{"path": "quad.glb"}], "resolution": [64, 36], "lens": {"focusDistance": 2}})";
+constexpr const char* kShot =
+    R"({"scene": [{"path": "quad.glb"}], "resolution": [64, 36], "lens": {"focusDistance": 2}})";
 
 class BenchConfigTest : public testing::Test {
  protected:

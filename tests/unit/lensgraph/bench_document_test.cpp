@@ -5,8 +5,8 @@
 #include "bench_results.h"
 #include "engine/error.h"
 #include "engine/files/output_file.h"
-#include "samples/lensgraph/bench/bench_file.h"
-#include "samples/lensgraph/bench/equal_quality.h"
+#include "samples/lensgraph/bench/results/bench_file.h"
+#include "samples/lensgraph/bench/results/equal_quality.h"
 #include "tests/support/temporary_folder.h"
 
 namespace lensgraph::cli {

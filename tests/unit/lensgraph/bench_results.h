@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "samples/lensgraph/bench/bench_document.h"
-#include "samples/lensgraph/bench/bench_run.h"
 #include "samples/lensgraph/bench/journal.h"
+#include "samples/lensgraph/bench/results/bench_document.h"
+#include "samples/lensgraph/bench/units.h"
 
 namespace lensgraph::cli_test {
 

@@ -1,5 +1,5 @@
 // From records of turns to medians and ratios: see bench_document.h.
-#include "samples/lensgraph/bench/bench_document.h"
+#include "samples/lensgraph/bench/results/bench_document.h"
 
 #include <cmath>
 #include <ctime>
@@ -9,8 +9,8 @@
 #include <tuple>
 
 #include "rendergraph/capture_series.h"
-#include "samples/lensgraph/bench/bench_run.h"
-#include "samples/lensgraph/bench/equal_quality.h"
+#include "samples/lensgraph/bench/results/equal_quality.h"
+#include "samples/lensgraph/bench/units.h"
 #include "samples/lensgraph/capture/capture_file.h"
 
 namespace lensgraph::cli {

@@ -1,5 +1,5 @@
 // Interpolation on the curve of accumulation: see equal_quality.h.
-#include "samples/lensgraph/bench/equal_quality.h"
+#include "samples/lensgraph/bench/results/equal_quality.h"
 
 #include <cmath>
 #include <limits>

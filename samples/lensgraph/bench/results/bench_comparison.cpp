@@ -1,5 +1,5 @@
 // Ratios of times and changes of quality: see bench_comparison.h.
-#include "samples/lensgraph/bench/bench_comparison.h"
+#include "samples/lensgraph/bench/results/bench_comparison.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>

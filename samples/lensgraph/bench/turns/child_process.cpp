@@ -1,5 +1,5 @@
 // fork and exec through posix_spawn, waited for with its resource usage: see child_process.h.
-#include "samples/lensgraph/bench/child_process.h"
+#include "samples/lensgraph/bench/turns/child_process.h"
 
 #include <fcntl.h>
 #include <spawn.h>

@@ -1,5 +1,5 @@
 // Two persistent pictures, so that a copy is all that a frame does: see screen_copy.h.
-#include "samples/lensgraph/bench/screen_copy.h"
+#include "samples/lensgraph/bench/turns/screen_copy.h"
 
 #include <algorithm>
 

@@ -1,12 +1,12 @@
 // Turns of another build, as processes of its own: see other_program.h.
-#include "samples/lensgraph/bench/other_program.h"
+#include "samples/lensgraph/bench/turns/other_program.h"
 
 #include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "engine/error.h"
-#include "samples/lensgraph/bench/child_process.h"
+#include "samples/lensgraph/bench/turns/child_process.h"
 
 namespace lensgraph::cli {
 namespace {

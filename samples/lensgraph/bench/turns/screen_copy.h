@@ -7,7 +7,7 @@
 #include "engine/vulkan/device.h"
 #include "rendergraph/executor.h"
 #include "rendergraph/graph.h"
-#include "samples/lensgraph/bench/turn.h"
+#include "samples/lensgraph/bench/turns/turn.h"
 
 namespace lensgraph::cli {
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "samples/host/technique_choice.h"
-#include "samples/lensgraph/bench/turn.h"
+#include "samples/lensgraph/bench/turns/turn.h"
 
 namespace lensgraph::cli {
 

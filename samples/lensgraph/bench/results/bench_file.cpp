@@ -1,12 +1,12 @@
 // Checks a document of results: see bench_file.h.
-#include "samples/lensgraph/bench/bench_file.h"
+#include "samples/lensgraph/bench/results/bench_file.h"
 
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "engine/error.h"
 #include "samples/host/json_reader.h"
-#include "samples/lensgraph/bench/bench_document.h"
+#include "samples/lensgraph/bench/results/bench_document.h"
 
 namespace lensgraph::cli {
 namespace {
