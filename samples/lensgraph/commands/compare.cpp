@@ -57,7 +57,7 @@ Blur blurOf(const CompareArguments& arguments, const engine::FloatImage& referen
 }  // namespace
 
 int runCompare(const CompareArguments& arguments, const GlobalArguments& global) {
-  if (arguments.maps) prepareMapFolder(*arguments.maps);
+  if (arguments.maps) checkMapFolder(*arguments.maps);
   engine::FloatImage reference = engine::readImage(arguments.reference);
   std::optional<Blur> blur;
   if (arguments.shot) blur = blurOf(arguments, reference, global);
