@@ -25,6 +25,7 @@ constexpr uint32_t kWidth = 48, kHeight = 36;
 class Compare : public ProgramTest {
  protected:
   Compare() {
+    writeQuad();
     reference_ = FloatImage(kWidth, kHeight, 3, 0.25f);
     for (uint32_t x = 0; x < kWidth; ++x) *reference_.pixel(x, 5) = 4.0f;  // a highlight
     first_ = second_ = reference_;
@@ -72,7 +73,7 @@ TEST_F(Compare, SeveralPicturesGiveTheFiguresOfEach) {
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 3);
 }
 
-// The lens has K = 36/(2 tan 20°) · 0.02 px·m and is focused at 2 m; the left half is at 1 m, the right one at 2 m.
+// c is 0 in the right half, at the focus of 2 m, and K (1/2 - 1) in the left one, at 1 m.
 TEST_F(Compare, AShotAndItsDepthGiveFiguresUnderMasks) {
   json shot = this->shot();
   shot["camera"]["fovyDeg"] = 40;
@@ -101,14 +102,18 @@ TEST_F(Compare, AShotAndItsDepthGiveFiguresUnderMasks) {
     EXPECT_NEAR(under["flip"].get<double>(), engine::meanUnderMask(flip.map, mask.pixels), 1e-9);
   }
   EXPECT_EQ(measured["masks"]["highlight"]["pixels"], kWidth);
-  // Pixels 15 … 32 are within 4.945 px of the last column of the left half or blurred over it.
-  EXPECT_EQ(measured["masks"]["nearEdge"]["pixels"], 9 * kHeight);
+  // c = -2.47 px in the left half: columns 21 … 25 are within it of column 23, the left half's last.
+  EXPECT_EQ(measured["masks"]["nearEdge"]["pixels"], 5 * kHeight);
   EXPECT_EQ(measured["masks"]["inFocus"]["pixels"], kWidth / 2 * kHeight);
 }
 
 TEST_F(Compare, WithoutDepthTheShotIsRendered) {
-  writeQuad();
-  writeShot(shot());
+  json shot = this->shot();
+  // The right half of the picture is background, beside the edge of the quad.
+  shot["camera"]["position"] = {20, 0, 0};
+  shot["camera"]["target"] = {20, 0, -1};
+  shot["lens"] = {{"apertureRadius", 0.2}, {"focusDistance", 2}};
+  writeShot(shot);
   const std::string size = std::to_string(kWidth) + "x" + std::to_string(kHeight);
   runWell({"render", "shot.json", "--technique", "pinhole", "--size", size, "--depth-out", "depth.exr", "-o", "p.exr"});
   const std::vector<std::string> arguments = {"first.exr", "reference.exr", "--shot", "shot.json"};
