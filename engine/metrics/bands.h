@@ -1,6 +1,7 @@
 // Work on a picture in bands of rows, on every processor: what keeps the memory of a metric small and its time short.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <vector>

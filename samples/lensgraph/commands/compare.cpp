@@ -79,7 +79,7 @@ std::string pageOf(Comparison comparison) {
 }  // namespace
 
 int runCompare(const CompareArguments& arguments, const GlobalArguments& global) {
-  if (arguments.maps) prepareMapFolder(*arguments.maps);
+  if (arguments.maps) checkMapFolder(*arguments.maps);
   if (arguments.page) {
     requireD3("compare --page");
     checkOutput(*arguments.page, "--page");

@@ -42,6 +42,11 @@ std::array<float, 3> magmaColor(float value) {
   return linear;
 }
 
+[[noreturn]] void failFolder(const path& folder, const std::string& reason) {
+  throw engine::Error(
+      {.file = folder.string(), .field = "--maps", .reason = reason, .remedy = "choose another folder"});
+}
+
 // Writes pictures into one folder, but over none of the files that are compared.
 class MapWriter {
  public:
@@ -75,19 +80,18 @@ std::string nameFor(const path& file, std::set<std::string>& taken) {
 
 }  // namespace
 
-void prepareMapFolder(const path& folder) {
-  std::error_code code;
-  std::filesystem::create_directories(folder, code);
-  if (!std::filesystem::is_directory(folder)) {
-    throw engine::Error({.file = folder.string(),
-                         .field = "--maps",
-                         .reason = "cannot be made: " + (code ? code.message() : "a file is in its place"),
-                         .remedy = "choose another folder"});
-  }
+void checkMapFolder(const path& folder) {
+  path missing;  // The topmost folder that would have to be made.
+  for (path at = folder; !at.empty() && !std::filesystem::exists(at); at = at.parent_path()) missing = at;
+  if (!missing.empty()) return engine::requireWritable(missing, "--maps");
+  if (!std::filesystem::is_directory(folder)) failFolder(folder, "is a file");
   engine::requireWritable(folder / "mask.nearEdge.png", "--maps");
 }
 
 void writeMaps(const Comparison& comparison, const path& folder) {
+  std::error_code code;
+  std::filesystem::create_directories(folder, code);
+  if (!std::filesystem::is_directory(folder)) failFolder(folder, "cannot be made: " + code.message());
   const MapWriter writer(comparison, folder);
   std::set<std::string> taken;
   for (const auto& picture : comparison.pictures) {

@@ -9,10 +9,10 @@
 
 namespace lensgraph::cli {
 
-/// Makes the folder, and throws engine::Error unless files can be written into it.
-void prepareMapFolder(const std::filesystem::path& folder);
+/// Throws engine::Error unless the folder is there and takes files, or can be made. Leaves nothing behind.
+void checkMapFolder(const std::filesystem::path& folder);
 
-/// Writes into the folder, for each picture NAME (its file's name without extension; a second one of that name is NAME_2):
+/// Writes into the folder, which is made if it is missing, for each picture NAME (its file's name without extension; a second one of that name is NAME_2):
 /// NAME.flip.png and NAME.hdr_flip.png (coloured), NAME.flip.exr and NAME.hdr_flip.exr (values), NAME.difference.png; and
 /// for each mask mask.NAME.png. Precondition: the comparison keeps its maps. Throws engine::Error: a file cannot be written,
 /// or is one of those compared.

@@ -8,6 +8,7 @@
 #include <limits>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "engine/error.h"
 #include "engine/metrics/hdr_flip.h"

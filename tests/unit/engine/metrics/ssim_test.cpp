@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "engine/metrics/metrics.h"
 #include "metrics/metric_pictures.h"
