@@ -32,7 +32,8 @@ struct RayTracedPicture {
 };
 
 /// Traces the picture. The same arguments give the same bits, whatever the number of threads and however often it was
-/// interrupted. Memory: some 150 bytes a placed triangle, 40 bytes a pixel.
+/// interrupted. Memory: 40 bytes a pixel, and a copy of the placed triangles with
+/// their hierarchy: some 150 bytes a triangle.
 /// Preconditions: findProblems(scene) is empty; the view's ranges hold. Throws Error: the checkpoint is that of another
 /// picture (bad input), memory or disk are full (failed).
 RayTracedPicture traceRays(const Scene& scene, const Environment* environment, const RayTracedView& view,
