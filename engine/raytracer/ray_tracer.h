@@ -32,7 +32,7 @@ struct RayTracedPicture {
 };
 
 /// Traces the picture. The same arguments give the same bits, whatever the number of threads and however often it was
-/// interrupted. Memory: some 150 bytes a placed triangle, 40 bytes a pixel.
+/// interrupted. Memory: 40 bytes a pixel, and for the copied triangles with their hierarchy some 150 bytes each.
 /// Preconditions: findProblems(scene) is empty; the view's ranges hold. Throws Error: the checkpoint is that of another
 /// picture (bad input), memory or disk are full (failed).
 RayTracedPicture traceRays(const Scene& scene, const Environment* environment, const RayTracedView& view,

@@ -2,13 +2,23 @@
 
 #include "reflection.glsl"
 
+// The linear part of the transform alone.
+vec2 transformedDirection(UvTransform transform, vec4 coords) {
+  const vec2 direction = transform.row0.w < 0.5 ? coords.xy : coords.zw;
+  return vec2(dot(transform.row0.xy, direction), dot(transform.row1.xy, direction));
+}
+
 // A tangent frame from screen-space derivatives, so that meshes need no tangents (Mikkelsen 2010 describes the idea).
+// Derivatives are taken of the vertices' outputs alone, before anything depends on a buffer: helper invocations, of which
+// there are some along every edge of a triangle, load zeros on some devices (llvmpipe).
 vec3 mappedNormal(vec3 normal) {
+  const vec3 dpdx = dFdx(viewPosition), dpdy = dFdy(viewPosition);
+  const vec4 coordsX = dFdx(texCoords), coordsY = dFdy(texCoords);
   const float normalScale = materials[materialIndex].surface.z;
   if (normalScale == 0.0) return normal;
-  const vec2 uv = transformedUv(materials[materialIndex].normalUv);
-  const vec3 dpdx = dFdx(viewPosition), dpdy = dFdy(viewPosition);
-  const vec2 duvdx = dFdx(uv), duvdy = dFdy(uv);
+  const UvTransform transform = materials[materialIndex].normalUv;
+  const vec2 uv = transformedUv(transform);
+  const vec2 duvdx = transformedDirection(transform, coordsX), duvdy = transformedDirection(transform, coordsY);
   const vec3 perpX = cross(normal, dpdx), perpY = cross(dpdy, normal);
   const vec3 tangent = perpY * duvdx.x + perpX * duvdy.x;
   const vec3 bitangent = perpY * duvdx.y + perpX * duvdy.y;

@@ -11,6 +11,7 @@
 #include "engine/metrics/metrics.h"
 #include "passes/registry/registry.h"
 #include "program.h"
+#include "samples/host/technique_choice.h"
 
 namespace lensgraph {
 
@@ -47,7 +48,7 @@ class GoodInput : public cli_test::ProgramTest {
 };
 
 TEST_F(GoodInput, EveryTechniqueRendersTheScene) {
-  for (const auto& technique : passes::techniques()) {
+  for (const auto& technique : host::techniques()) {
     SCOPED_TRACE(technique.name);
     const std::string name(technique.name);
     const auto image = render({"--technique", name}, name + ".exr");
@@ -187,9 +188,9 @@ TEST_F(GoodInput, CompareMeasures) {
 
 TEST_F(GoodInput, TechniquesAreListedWithUnitRangeAndDefault) {
   const auto listed = json::parse(runWell({"techniques", "--json"}))["techniques"];
-  ASSERT_EQ(listed.size(), passes::techniques().size());
+  ASSERT_EQ(listed.size(), host::techniques().size());
   for (std::size_t i = 0; i < listed.size(); ++i) {
-    const auto& technique = passes::techniques()[i];
+    const auto& technique = host::techniques()[i];
     EXPECT_EQ(listed[i]["name"], technique.name);
     ASSERT_EQ(listed[i]["parameters"].size(), technique.parameters.size());
     for (const auto& parameter : listed[i]["parameters"]) {

@@ -12,7 +12,7 @@ std::optional<Browser> PageTest::browser_;
 
 void PageTest::SetUp() {
   if (!Browser::program()) {
-    const char* wanted = std::getenv("LENSGRAPH_PAGE_TESTS");
+    const char* wanted = std::getenv("LENSGRAPH_ALL_TESTS");
     ASSERT_FALSE(wanted != nullptr && std::string_view(wanted) == "required") << "chromium is not installed";
     GTEST_SKIP() << "chromium is not installed (Debian: chromium)";
   }

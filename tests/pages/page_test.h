@@ -14,7 +14,7 @@
 
 namespace lensgraph::page_test {
 
-/// Skips where Chromium is not installed; fails there when the environment's LENSGRAPH_PAGE_TESTS is "required". After
+/// Skips where Chromium is not installed; fails there when the environment's LENSGRAPH_ALL_TESTS is "required". After
 /// each test the page must have raised no complaint.
 class PageTest : public testing::Test {
  protected:

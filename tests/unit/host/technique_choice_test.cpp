@@ -112,6 +112,17 @@ TEST_F(TechniqueFile, IsRefusedWithTheField) {
             "technique.nonsense");
 }
 
+TEST(Technique, RaytracedStandsBesideThoseOfTheRegistry) {
+  EXPECT_EQ(host::techniques().size(), passes::techniques().size() + 1);
+  EXPECT_EQ(host::requireTechnique("raytraced", "", "").name, "raytraced");
+  EXPECT_EQ(passes::findTechnique("raytraced"), nullptr) << "it has no graph";
+  const auto error = errorOf([] { host::requireTechnique("raytrced", "", ""); });
+  EXPECT_THAT(error.remedy, HasSubstr("raytraced"));
+  host::TechniqueChoice choice{"raytraced", {}};
+  host::setParameter(choice, "samples=12");
+  EXPECT_EQ(std::get<int64_t>(choice.parameters.at("samples")), 12);
+}
+
 TEST(Technique, UnknownTechniquesAreRefusedWithTheNearestName) {
   const auto error = errorOf([] { host::requireTechnique("two_pas_filter", "file", "field"); });
   EXPECT_EQ(error.file, "file");
