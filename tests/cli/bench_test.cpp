@@ -1,4 +1,6 @@
 // lensgraph bench, bench-merge and compare-bench, and the reports of single pictures as JSON.
+#include <gmock/gmock.h>
+
 #include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>

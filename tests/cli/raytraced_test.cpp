@@ -8,7 +8,7 @@
 
 #include "engine/image/image.h"
 #include "engine/image/image_io.h"
-#include "engine/image/metrics.h"
+#include "engine/metrics/metrics.h"
 #include "program.h"
 
 namespace lensgraph {

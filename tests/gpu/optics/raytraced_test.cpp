@@ -6,7 +6,7 @@
 #include <functional>
 #include <limits>
 
-#include "engine/image/metrics.h"
+#include "engine/metrics/metrics.h"
 #include "tests/support/gpu/gpu_test.h"
 #include "tests/support/gpu/test_scenes.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "engine/image/metrics.h"
+#include "engine/metrics/metrics.h"
 #include "tests/support/gpu/gpu_test.h"
 #include "tests/support/gpu/test_scenes.h"
 
