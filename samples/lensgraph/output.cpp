@@ -43,6 +43,18 @@ void checkOutput(const path& file, std::string_view option, std::span<const std:
   engine::requireWritable(file, std::string(option));
 }
 
+void makeOutputFolder(const path& folder, const std::string& option, const std::string& file) {
+  std::error_code code;
+  std::filesystem::create_directories(folder, code);
+  if (!std::filesystem::is_directory(folder)) {
+    throw engine::Error({.file = folder.string(),
+                         .field = option,
+                         .reason = "cannot be made: " + (code ? code.message() : "a file is in its place"),
+                         .remedy = "choose another folder"});
+  }
+  engine::requireWritable(folder / file, option);
+}
+
 void requireDistinct(std::span<const OutputFile> files) {
   std::vector<path> places;
   for (const OutputFile& file : files) {

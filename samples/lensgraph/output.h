@@ -16,6 +16,10 @@ namespace lensgraph::cli {
 void checkOutput(const std::filesystem::path& file, std::string_view option,
                  std::span<const std::string_view> extensions = {});
 
+/// Makes the folder that `option` names, and those above it, where it is not there yet. Throws engine::Error unless it is a
+/// folder then and takes a file called `file`.
+void makeOutputFolder(const std::filesystem::path& folder, const std::string& option, const std::string& file);
+
 struct OutputFile {
   std::filesystem::path file;
   std::string option;  ///< That names it.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "page_test.h"
+#include "samples/lensgraph/pages/embedded_page.h"
 
 namespace lensgraph::page_test {
 namespace {
@@ -22,6 +23,7 @@ class CapturePage : public PageTest {
   void SetUp() override {
     PageTest::SetUp();
     if (IsSkipped() || HasFatalFailure()) return;
+    if (cli::dagreScript().empty()) GTEST_SKIP() << "the program was built without dagre";
     if (page_.empty()) makePage();
     ASSERT_FALSE(page_.empty());
     open(page_);

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "passes/lens/physical_lens.h"
+#include "samples/host/measures/quality.h"
 #include "samples/lensgraph/version.h"
 
 namespace lensgraph::cli {
@@ -20,8 +21,7 @@ json toJson(const passes::ParameterValue& value) {
 }
 
 json toJson(double value) {
-  if (std::isfinite(value)) return value;
-  return std::isnan(value) ? "nan" : value > 0.0 ? "infinity" : "-infinity";
+  return host::jsonNumber(value);
 }
 
 json toJson(const engine::DeviceDescription& device) {

@@ -5,7 +5,6 @@
 #include <thread>
 
 #include "engine/error.h"
-#include "engine/files/output_file.h"
 #include "samples/lensgraph/bench/bench_case.h"
 #include "samples/lensgraph/bench/bench_config.h"
 #include "samples/lensgraph/bench/bench_run.h"
@@ -14,6 +13,7 @@
 #include "samples/lensgraph/bench/turns/other_program.h"
 #include "samples/lensgraph/capture/capture_file.h"
 #include "samples/lensgraph/commands/bench_output.h"
+#include "samples/lensgraph/output.h"
 #include "samples/lensgraph/progress.h"
 #include "samples/lensgraph/session.h"
 #include "samples/lensgraph/subcommands.h"
@@ -38,18 +38,6 @@ BenchConfig configOf(const BenchArguments& arguments) {
   }
   if (arguments.repeats) config.repeats = *arguments.repeats;
   return config;
-}
-
-void makeFolder(const path& folder) {
-  std::error_code code;
-  std::filesystem::create_directories(folder, code);
-  if (!std::filesystem::is_directory(folder)) {
-    throw engine::Error({.file = folder.string(),
-                         .field = "--output",
-                         .reason = "cannot be made: " + (code ? code.message() : "a file is in its place"),
-                         .remedy = "choose another folder"});
-  }
-  engine::requireWritable(folder / "bench.json", "--output");
 }
 
 /// As the system names it; empty where it does not.
@@ -122,7 +110,7 @@ int runBench(const BenchArguments& arguments, const GlobalArguments& global) {
   for (const auto& text : arguments.programs) programs.emplace_back(text);
   checkPrograms(programs);
   const path folder = std::filesystem::absolute(arguments.output);
-  makeFolder(folder);
+  makeOutputFolder(folder, "--output", "bench.json");
 
   Session session(global);
   const auto facts = factsOf(config, session.device().description(), shard, programs);

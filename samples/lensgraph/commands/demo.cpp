@@ -47,18 +47,6 @@ std::vector<path> shotsIn(const path& folder) {
   return shots;
 }
 
-void makeFolder(const path& folder) {
-  std::error_code code;
-  std::filesystem::create_directories(folder, code);
-  if (!std::filesystem::is_directory(folder)) {
-    throw engine::Error({.file = folder.string(),
-                         .field = "--output",
-                         .reason = "cannot be made: " + (code ? code.message() : "a file is in its place"),
-                         .remedy = "choose another folder"});
-  }
-  checkOutput(folder / "index.html", "--output");
-}
-
 /// Same shape, other width.
 void scaleTo(host::Shot& shot, int width) {
   const double scale = static_cast<double>(width) / shot.width;
@@ -117,7 +105,7 @@ DemoScene renderScene(Session& session, const path& file, const DemoArguments& a
   DemoScene scene{.id = id, .name = shot.name, .reference = id + "/reference.png", .results = {}};
   scene.width = shot.width;
   scene.height = shot.height;
-  makeFolder(arguments.output / id);
+  makeOutputFolder(arguments.output / id, "--output", "index.html");
 
   steps.begin(id + " reference");
   const passes::ParameterSet referenceParameters = {{"lensSamples", int64_t{arguments.referenceSamples}},
@@ -154,7 +142,7 @@ DemoScene renderScene(Session& session, const path& file, const DemoArguments& a
 int runDemo(const DemoArguments& arguments, const GlobalArguments& global) {
   const auto start = std::chrono::steady_clock::now();
   const auto shots = shotsIn(arguments.scenes.value_or(LENSGRAPH_SAMPLE_SCENES));
-  makeFolder(arguments.output);
+  makeOutputFolder(arguments.output, "--output", "index.html");
   Session session(global);
   const std::string device = describe(session.device().description());
   std::cout << "device  " << device << "\n" << std::flush;
