@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <csignal>
 
 #include "engine/files/unfinished_files.h"
@@ -11,8 +12,11 @@
 namespace lensgraph::cli {
 namespace {
 
+std::atomic<int> childToEnd = 0;
+
 void endBySignal(int signal) {
   engine::removeUnfinishedFiles();
+  if (const int child = childToEnd.load(); child > 0) ::kill(child, SIGTERM);
   // Blocked while its handler runs, it ends the process as soon as this returns.
   std::signal(signal, SIG_DFL);
   ::raise(signal);
@@ -27,6 +31,10 @@ void handle(int signal) {
 }
 
 }  // namespace
+
+void setChildToEnd(int process) {
+  childToEnd.store(process);
+}
 
 void setUpProcess() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {

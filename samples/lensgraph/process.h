@@ -9,4 +9,7 @@ namespace lensgraph::cli {
 /// writing to them fails.
 void setUpProcess();
 
+/// The process that gets SIGTERM when such a signal ends this one; 0: none.
+void setChildToEnd(int process);
+
 }  // namespace lensgraph::cli

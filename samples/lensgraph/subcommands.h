@@ -132,6 +132,7 @@ struct CompareBenchArguments {
   double timeTolerance = 1.1;           ///< Ratio of times that is still none of a regression, >= 1.
   double psnrTolerance = 0.0;           ///< dB that PSNR may fall, >= 0.
   double ssimTolerance = 0.0;           ///< By which SSIM may fall, >= 0.
+  bool mustBeComplete = false;          ///< Whether B must have every result of A.
   bool json = false;
 };
 int runCompareBench(const CompareBenchArguments& arguments);

@@ -155,12 +155,90 @@ TEST_F(Bench, WhatIsWrongIsNamed) {
 TEST_F(Bench, AFolderOfAnotherBenchmarkIsRefused) {
   writeConfig(json{{"technique", "pinhole"}});
   runWell({"bench", "bench.json", "-o", "out"});
-  expectError({"bench", "bench.json", "-o", "out", "--repeats", "3"}, 2, {"config: is"});
+  expectError({"bench", "bench.json", "-o", "out", "--repeats", "3"}, 2, {"repeats: is 2"});
   auto lines = linesOf("out/journal.jsonl");
   auto head = json::parse(lines[0]);
   head["commit"] = "0000";
   write("out/journal.jsonl", head.dump() + "\n");
   expectError({"bench", "bench.json", "-o", "out"}, 2, {"commit: is 0000"});
+}
+
+TEST_F(Bench, AnEditedSceneIsRefused) {
+  writeConfig(json{{"technique", "pinhole"}});
+  runWell({"bench", "bench.json", "-o", "out"});
+  writeQuad({.depth = 2.5f});
+  expectError({"bench", "bench.json", "-o", "out"}, 2, {"journal.jsonl", "shots: is"});
+}
+
+TEST_F(Bench, DamagedReferencesAreRenderedAgain) {
+  writeConfig(json{{"technique", "pinhole"}});
+  runWell({"bench", "bench.json", "-o", "one", "--references", "references"});
+  const auto place = std::filesystem::directory_iterator(folder() / "references")->path();
+  std::ofstream(place / "views_64.exr", std::ios::trunc);
+  const auto again = run({"bench", "bench.json", "-o", "two", "--references", "references"});
+  EXPECT_EQ(again.status, 0);
+  EXPECT_THAT(again.err, HasSubstr("rendering it again"));
+  EXPECT_EQ(readJson("one/bench.json")["shots"][0]["accumulation"],
+            readJson("two/bench.json")["shots"][0]["accumulation"]);
+}
+
+TEST_F(Bench, MergedPartsKeepTheirOwnUnits) {
+  runWell({"bench", "bench.json", "-o", "part1", "--shard", "1/2", "--references", "references"});
+  runWell({"bench", "bench.json", "-o", "part2", "--shard", "2/2", "--references", "references"});
+  runWell({"bench-merge", "part1", "part2", "-o", "fast"});
+  // The same part, measured on a machine of a tenth of the speed.
+  json slow = readJson("part2/bench.json");
+  for (json& result : slow["shots"][0]["results"]) {
+    for (const char* figure : {"median", "min", "max"}) {
+      result["cpuMs"][figure] = result["cpuMs"][figure].get<double>() * 10.0;
+    }
+    for (auto& unit : result["unitMs"]) unit = unit.get<double>() * 10.0;
+  }
+  write("part2/bench.json", slow.dump());
+  runWell({"bench-merge", "part1", "part2", "-o", "slow"});
+  const json comparison = json::parse(runWell({"compare-bench", "fast", "slow", "--unit", "pinhole", "--json"}));
+  for (const json& result : comparison["results"]) EXPECT_NEAR(result["timeRatio"]["median"], 1.0, 1e-9);
+
+  slow["shots"][0]["sceneHash"] = "0";
+  write("part2/bench.json", slow.dump());
+  EXPECT_EQ(run({"bench-merge", "part1", "part2", "-o", "other"}).status, 2);
+  expectError({"bench-merge", "part1", "part2", "-o", "part1"}, 2, {"--output", "one of the parts"});
+}
+
+TEST_F(Bench, OddFilesOfResultsAreRefused) {
+  writeConfig(json{{"technique", "pinhole"}});
+  runWell({"bench", "bench.json", "-o", "out"});
+  const json good = readJson("out/bench.json");
+  for (const auto& [pointer, value] : {std::pair<const char*, json>{"/shots/0/results/0/cpuMs", json::object()},
+                                       {"/shots/0/results/0/cpuMs/median", "a"},
+                                       {"/shots/0/results/0/quality", 4},
+                                       {"/shots/0/results", "none"}}) {
+    json odd = good;
+    odd[json::json_pointer(pointer)] = value;
+    write("odd.json", odd.dump());
+    expectError({"compare-bench", "odd.json", "out"}, 2, {"odd.json"});
+  }
+  std::filesystem::create_directory(folder() / "part");
+  json odd = good;
+  odd["shots"][0]["reference"]["picture"] = "../outside.exr";
+  write("part/bench.json", odd.dump());
+  const auto outcome = run({"bench-merge", "part", "-o", "merged/below"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("outside the folder"));
+}
+
+TEST_F(Bench, ABuildThatTellsNoTimeIsLeftOut) {
+  writeConfig(json{{"technique", "pinhole"}});
+  const auto program = write("program.sh",
+                             "#!/bin/sh\n[ \"$1\" = --version ] && echo lensgraph 0 && exit 0\n"
+                             "[ \"$2\" = --help ] && echo --frames-timed && exit 0\n" +
+                                 std::string(LENSGRAPH_PROGRAM) + " \"$@\" >/dev/null\necho '{\"warm\": {}}'\n");
+  std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+  const auto outcome = run({"bench", "bench.json", "-o", "out", "--program", "mute=" + program.string()});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("mute could not be timed"));
+  EXPECT_EQ(readJson("out/bench.json")["shots"][0]["results"].size(), 1u);
+  EXPECT_FALSE(std::filesystem::exists(folder() / "out/scratch"));
 }
 
 TEST_F(Bench, ARegressionIsStatusOne) {

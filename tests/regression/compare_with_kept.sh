@@ -21,7 +21,7 @@ if [[ ${LENSGRAPH_UPDATE_GOLDEN:-} == 1 ]]; then
 fi
 
 status=0
-"$program" compare-bench "$folder/kept.json" "$scratch/now" --unit accumulationView --time-tolerance 3 \
+"$program" compare-bench "$folder/kept.json" "$scratch/now" --complete --unit accumulationView --time-tolerance 3 \
   --psnr-tolerance .001 --ssim-tolerance .00001 2> "$scratch/errors" || status=$?
 cat "$scratch/errors" >&2
 if ((status == 2)) && grep -qE ': device\.(name|driver): ' "$scratch/errors"; then exit $nothing_compared; fi

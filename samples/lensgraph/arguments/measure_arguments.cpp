@@ -86,6 +86,7 @@ Action addCompareBench(CLI::App& app) {
       ->type_name("D")
       ->check(CLI::Range(0.0, 2.0))
       ->capture_default_str();
+  sub->add_flag("--complete", a->mustBeComplete, "A result that B lacks is a regression too");
   sub->add_flag("--json", a->json, "As JSON");
   return [a](const GlobalArguments&) { return runCompareBench(*a); };
 }

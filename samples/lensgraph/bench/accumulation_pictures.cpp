@@ -1,14 +1,18 @@
 // One progressive run, its intermediate pictures kept: see accumulation_pictures.h.
 #include "samples/lensgraph/bench/accumulation_pictures.h"
 
+#include <spdlog/spdlog.h>
+
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
 
+#include "engine/error.h"
 #include "engine/files/output_file.h"
 #include "engine/image/image_io.h"
-#include "samples/lensgraph/bench/bench_case.h"
+#include "samples/host/measures/shot_files.h"
 #include "samples/lensgraph/bench/names.h"
-#include "samples/lensgraph/capture/capture_file.h"
 #include "samples/lensgraph/version.h"
 
 namespace lensgraph::cli {
@@ -26,11 +30,12 @@ std::vector<int> curveSamples() {
   return samples;
 }
 
-path placeOf(const host::Shot& shot, int samples, const std::string& caseId, const path& folder) {
-  const std::string content = hashOfFiles(filesOf(shot)) + std::to_string(shot.width) + "x" +
+path placeOf(const host::Shot& shot, int samples, const std::string& caseId, const std::string& device,
+             const path& folder) {
+  const std::string content = device + host::hashOfFiles(host::filesOf(shot)) + std::to_string(shot.width) + "x" +
                               std::to_string(shot.height) + std::string(host::nameOf(shot.faces)) +
                               std::to_string(samples);
-  return folder / (fileNameOf(caseId) + "_" + hashOfText(content));
+  return folder / (fileNameOf(caseId) + "_" + host::hashOfText(content));
 }
 
 path pictureFile(const path& place, int samples) {
@@ -60,22 +65,35 @@ void render(host::Renderer& renderer, const host::Shot& shot, int samples, const
   engine::writeFile(completionFile(place), json{{"samples", samples}, {"commit", kCommit}}.dump(2) + "\n");
 }
 
+/// The pictures of a place; none where they are missing, unfinished or damaged.
+std::optional<AccumulationPictures> read(const path& place, int samples) {
+  if (!std::filesystem::exists(completionFile(place))) return {};
+  try {
+    AccumulationPictures pictures;
+    for (const int views : curveSamples()) {
+      pictures.curve.push_back({views, engine::readImage(pictureFile(place, views))});
+    }
+    pictures.reference = engine::readImage(pictureFile(place, samples));
+    std::ifstream stream(completionFile(place));
+    const auto facts = json::parse(stream, nullptr, false);
+    if (facts.is_object()) pictures.commit = facts.value("commit", "");
+    return pictures;
+  } catch (const engine::Error& error) {
+    spdlog::warn("{}; rendering it again", error.what());
+    return {};
+  }
+}
+
 }  // namespace
 
 AccumulationPictures accumulationPictures(host::Renderer& renderer, const host::Shot& shot, int samples,
-                                          const std::string& caseId, const path& folder,
+                                          const std::string& caseId, const std::string& device, const path& folder,
                                           const std::function<void(double)>& progress) {
-  const path place = placeOf(shot, samples, caseId, folder);
-  if (!std::filesystem::exists(completionFile(place))) render(renderer, shot, samples, place, progress);
-  AccumulationPictures pictures;
-  for (const int views : curveSamples()) {
-    pictures.curve.push_back({views, engine::readImage(pictureFile(place, views))});
-  }
-  pictures.reference = engine::readImage(pictureFile(place, samples));
-  std::ifstream stream(completionFile(place));
-  const auto facts = json::parse(stream, nullptr, false);
-  if (facts.is_object()) pictures.commit = facts.value("commit", "");
-  return pictures;
+  const path place = placeOf(shot, samples, caseId, device, folder);
+  if (auto kept = read(place, samples)) return std::move(*kept);
+  render(renderer, shot, samples, place, progress);
+  if (auto made = read(place, samples)) return std::move(*made);
+  throw engine::Error(place.string() + ": the pictures cannot be read again", engine::ErrorKind::failed);
 }
 
 }  // namespace lensgraph::cli

@@ -28,10 +28,12 @@ struct AccumulationPictures {
 inline constexpr int kFirstCurveSamples = 4, kLastCurveSamples = 256;
 
 /// Reads the pictures from `folder`, or renders `samples` (at least kLastCurveSamples) views and puts them there. The
-/// name of their place holds a hash of the shot's files, its size, its faces and `samples`. `progress` is told the share
+/// name of their place holds a hash of the shot's files, its size, its faces, `samples` and `device` (its name and driver).
+/// What cannot be read again is rendered again. `progress` is told the share
 /// that is rendered, 0…1.
 AccumulationPictures accumulationPictures(host::Renderer& renderer, const host::Shot& shot, int samples,
-                                          const std::string& caseId, const std::filesystem::path& folder,
+                                          const std::string& caseId, const std::string& device,
+                                          const std::filesystem::path& folder,
                                           const std::function<void(double)>& progress);
 
 }  // namespace lensgraph::cli

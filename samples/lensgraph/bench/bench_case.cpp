@@ -32,7 +32,7 @@ void requireSize(const std::filesystem::path& reference, const host::Shot& shot)
 
 }  // namespace
 
-Shard parseShard(const std::string& text) {
+std::optional<Shard> shardFrom(const std::string& text) {
   Shard shard;
   const char* end = text.data() + text.size();
   const auto index = std::from_chars(text.data(), end, shard.index);
@@ -40,12 +40,7 @@ Shard parseShard(const std::string& text) {
   const auto count = hasSlash ? std::from_chars(index.ptr + 1, end, shard.count) : index;
   const bool isPart =
       hasSlash && count.ec == std::errc{} && count.ptr == end && shard.index >= 1 && shard.index <= shard.count;
-  if (!isPart) {
-    throw engine::Error({.file = "command line",
-                         .field = "--shard",
-                         .reason = "\"" + text + "\" is no part of a whole",
-                         .remedy = "write I/N with I from 1 to N, such as 3/8"});
-  }
+  if (!isPart) return {};
   return shard;
 }
 
@@ -78,13 +73,6 @@ std::vector<BenchCase> casesOf(const BenchConfig& config, const Shard& shard) {
     }
   }
   return cases;
-}
-
-std::vector<std::filesystem::path> filesOf(const host::Shot& shot) {
-  std::vector<std::filesystem::path> files = {shot.file};
-  for (const auto& part : shot.scene) files.push_back(part.path);
-  if (shot.environment) files.push_back(*shot.environment);
-  return files;
 }
 
 }  // namespace lensgraph::cli

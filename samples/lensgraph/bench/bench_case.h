@@ -17,8 +17,8 @@ struct Shard {
   int index = 1, count = 1;
 };
 
-/// "3/8". Throws engine::Error (field "--shard") for what is no part of a whole.
-Shard parseShard(const std::string& text);
+/// Of a text such as "3/8"; none for what is no part of a whole.
+std::optional<Shard> shardFrom(const std::string& text);
 std::string nameOf(const Shard& shard);
 
 struct BenchCase {
@@ -32,8 +32,5 @@ struct BenchCase {
 /// All cases of which the shard has variants. Pairs of case and variant are dealt out in contiguous runs, so that a shard
 /// needs few references. Throws engine::Error: a shot that cannot be read, a reference of another size.
 std::vector<BenchCase> casesOf(const BenchConfig& config, const Shard& shard);
-
-/// What the case's picture is made from: the shot file, the files of its scene, its environment.
-std::vector<std::filesystem::path> filesOf(const host::Shot& shot);
 
 }  // namespace lensgraph::cli

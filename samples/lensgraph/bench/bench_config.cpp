@@ -7,6 +7,7 @@
 
 #include "engine/error.h"
 #include "samples/host/json_reader.h"
+#include "samples/host/measures/shot_files.h"
 #include "samples/host/shot.h"
 #include "samples/lensgraph/bench/names.h"
 
@@ -102,13 +103,18 @@ void requireUnique(const JsonNode& node, const Items& items, const IdOf& idOf) {
   }
 }
 
-void parseLists(const JsonNode& root, const path& folder, BenchConfig& config) {
+void parseShots(const JsonNode& root, const path& folder, BenchConfig& config) {
   const auto shots = root.at("shots", "name the shot files to render");
   for (const auto& shot : shots.elements()) config.shots.push_back(parseShot(shot, folder));
   if (config.shots.empty()) shots.fail("is empty", "name at least one shot file");
   requireUnique(shots, config.shots, [](const BenchShot& shot) { return shotId(shot.shot); });
+}
+
+void parseLists(const JsonNode& root, BenchConfig& config) {
   if (const auto sizes = root.find("sizes")) {
     for (const auto& size : sizes->elements()) config.sizes.push_back(parseSize(size));
+    requireUnique(*sizes, config.sizes,
+                  [](const BenchSize& size) { return std::to_string(size.width) + "x" + std::to_string(size.height); });
   }
   const auto variants = root.find("variants");
   if (!variants) {
@@ -144,14 +150,16 @@ void addFolder(const path& folder, std::vector<BenchShot>& shots) {
 
 }  // namespace
 
-BenchConfig readBenchConfig(const path& file) {
+BenchConfig readBenchConfig(const path& file, std::vector<BenchShot> shots) {
   const auto document = host::readJsonFile(file);
   const JsonNode root(document, file);
   root.requireObject({"name", "shots", "sizes", "variants", "repeats", "referenceSamples", "exposureEv"});
   BenchConfig config;
   const auto name = root.find("name");
   config.name = name ? name->text() : file.stem().string();
-  parseLists(root, file.parent_path(), config);
+  config.shots = std::move(shots);
+  if (config.shots.empty()) parseShots(root, file.parent_path(), config);
+  parseLists(root, config);
   if (const auto repeats = root.find("repeats")) config.repeats = static_cast<int>(repeats->integer(1, kMostRepeats));
   if (const auto samples = root.find("referenceSamples")) {
     config.referenceSamples = static_cast<int>(samples->integer(kLeastReferenceSamples, kMostReferenceSamples));
@@ -196,18 +204,23 @@ std::vector<BenchShot> findShots(const std::vector<path>& paths) {
   return shots;
 }
 
-std::string hashOf(const BenchConfig& config) {
-  using nlohmann::json;
-  json all = {{"name", config.name},
-              {"repeats", config.repeats},
-              {"referenceSamples", config.referenceSamples},
-              {"exposureEv", config.exposureEv}};
+nlohmann::ordered_json identityOf(const BenchConfig& config) {
+  std::string shots, sizes, variants;
   for (const auto& shot : config.shots) {
-    all["shots"].push_back({shot.shot.string(), shot.reference ? shot.reference->string() : ""});
+    auto files = host::filesOf(host::readShot(shot.shot));
+    if (shot.reference) files.push_back(*shot.reference);
+    shots += (shots.empty() ? "" : ", ") + shotId(shot.shot) + " " + host::hashOfFiles(files);
   }
-  for (const auto& size : config.sizes) all["sizes"].push_back({size.width, size.height});
-  for (const auto& variant : config.variants) all["variants"].push_back(variant.id);
-  return hashOfText(all.dump(-1, ' ', false, json::error_handler_t::replace));
+  for (const auto& size : config.sizes) {
+    sizes += (sizes.empty() ? "" : ", ") + std::to_string(size.width) + "x" + std::to_string(size.height);
+  }
+  for (const auto& variant : config.variants) variants += (variants.empty() ? "" : ", ") + variant.id;
+  return {{"shots", shots},
+          {"sizes", sizes},
+          {"variants", variants},
+          {"repeats", config.repeats},
+          {"referenceSamples", config.referenceSamples},
+          {"exposureEv", config.exposureEv}};
 }
 
 }  // namespace lensgraph::cli

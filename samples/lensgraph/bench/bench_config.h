@@ -14,6 +14,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -51,8 +52,9 @@ struct BenchConfig {
 /// Fewest samples of a reference: those of the last point of accumulation's curve.
 inline constexpr int kLeastReferenceSamples = 256;
 
-/// Reads and checks a file. Throws engine::Error that names the file and the field.
-BenchConfig readBenchConfig(const std::filesystem::path& file);
+/// Reads and checks a file. `shots`, where not empty, replace those of the file, which then needs none. Throws engine::Error
+/// that names the file and the field.
+BenchConfig readBenchConfig(const std::filesystem::path& file, std::vector<BenchShot> shots = {});
 
 /// The built-in set "quick": every technique with its defaults, three turns. The accumulation reference is no variant of
 /// its own; its curve tells what it costs.
@@ -63,7 +65,9 @@ BenchConfig quickBench(std::vector<BenchShot> shots);
 /// is nothing.
 std::vector<BenchShot> findShots(const std::vector<std::filesystem::path>& paths);
 
-/// 16 hexadecimal digits that differ where configurations do. Files count by their paths.
-std::string hashOf(const BenchConfig& config);
+/// What of a configuration must not change between two runs into one folder, or between the parts of a benchmark: fields
+/// of texts and numbers. Shots count by their names and by the content of their files and references, wherever they are.
+/// Throws engine::Error: a shot that cannot be read.
+nlohmann::ordered_json identityOf(const BenchConfig& config);
 
 }  // namespace lensgraph::cli

@@ -4,10 +4,12 @@
 #include <spdlog/spdlog.h>
 
 #include <memory>
+#include <optional>
 #include <stdexcept>
 
 #include "engine/error.h"
 #include "engine/image/image_io.h"
+#include "samples/host/measures/shot_files.h"
 #include "samples/host/renderer.h"
 #include "samples/host/shot_scene.h"
 #include "samples/lensgraph/bench/accumulation_pictures.h"
@@ -18,6 +20,7 @@
 #include "samples/lensgraph/bench/turns/turn.h"
 #include "samples/lensgraph/bench/units.h"
 #include "samples/lensgraph/capture/capture_file.h"
+#include "samples/lensgraph/version.h"
 
 namespace lensgraph::cli {
 namespace {
@@ -79,7 +82,7 @@ class CaseRun {
   ordered_json variantOfThis(const PlannedTurn& turn, const std::filesystem::path& picture);
   ordered_json variantOfOther(const PlannedTurn& turn, const std::filesystem::path& picture);
   void takeTurn(const PlannedTurn& turn, int round);
-  TurnTimes timesOf(const PlannedTurn& turn);
+  std::optional<TurnTimes> timesOf(const PlannedTurn& turn);
   TurnTimes timesOfFrames(const std::string& technique, const passes::ParameterSet& parameters);
   OtherProgram& programOf(const PlannedTurn& turn);
   bool isUnavailable(const PlannedTurn& turn) const;
@@ -133,7 +136,13 @@ void CaseRun::run(const std::function<void(double, const std::string&)>& progres
 
 void CaseRun::measureReference(const std::function<void(double)>& progress) {
   const int samples = case_.reference ? kLastCurveSamples : config_.referenceSamples;
-  const auto pictures = accumulationPictures(*renderer_, case_.shot, samples, case_.id, options_.references, progress);
+  const auto& device = device_.description();
+  const auto pictures = accumulationPictures(*renderer_, case_.shot, samples, case_.id, device.name + device.driver,
+                                             options_.references, progress);
+  if (pictures.commit != kCommit) {
+    spdlog::warn("{}: the reference in {} was rendered by commit {}", case_.id, options_.references.string(),
+                 pictures.commit);
+  }
   const auto& picture = case_.reference ? engine::readImage(*case_.reference) : pictures.reference;
   reference_ = std::make_unique<CaseReference>(*renderer_, case_.shot, picture, config_.exposureEv);
   if (journal_.find(caseKey(case_)) != nullptr) return;
@@ -159,7 +168,7 @@ void CaseRun::measureReference(const std::function<void(double)>& progress) {
                                 {"shot", case_.shotId},
                                 {"name", shot.name},
                                 {"file", shot.file.filename().string()},
-                                {"sceneHash", hashOfFiles(filesOf(shot))},
+                                {"sceneHash", host::hashOfFiles(host::filesOf(shot))},
                                 {"triangles", triangles_},
                                 {"width", shot.width},
                                 {"height", shot.height},
@@ -235,24 +244,30 @@ ordered_json CaseRun::variantOfOther(const PlannedTurn& turn, const std::filesys
     spdlog::warn("{} {}: {} cannot render it: {}", case_.id, turn.name, turn.program, reason);
     return {{"unavailable", reason}};
   }
-  return {{"quality", reference_->quality(engine::readImage(options_.folder / picture))},
-          {"picture", picture.string()}};
+  try {
+    return {{"quality", reference_->quality(engine::readImage(options_.folder / picture))},
+            {"picture", picture.string()}};
+  } catch (const engine::Error& error) {
+    spdlog::warn("{} {}: the picture of {} cannot be compared: {}", case_.id, turn.name, turn.program, error.what());
+    return {{"unavailable", error.what()}};
+  }
 }
 
 void CaseRun::takeTurn(const PlannedTurn& turn, int round) {
   ordered_json record = {{"case", case_.id}, {"id", turn.name}, {"program", turn.program}, {"round", round}};
   if (!isUnavailable(turn)) {
-    const TurnTimes times = timesOf(turn);
-    record.update({{"cpuMs", times.cpuMs}, {"wallMs", times.wallMs}, {"gpuMs", times.gpuMs}});
+    if (const auto times = timesOf(turn)) {
+      record.update({{"cpuMs", times->cpuMs}, {"wallMs", times->wallMs}, {"gpuMs", times->gpuMs}});
+    }
   }
   journal_.add(turnKey(case_, turn, round), std::move(record));
 }
 
-TurnTimes CaseRun::timesOf(const PlannedTurn& turn) {
+std::optional<TurnTimes> CaseRun::timesOf(const PlannedTurn& turn) {
   if (turn.name == kPinholeUnit) return timesOfFrames("pinhole", {});
   if (turn.name == kViewUnit) {
-    TurnTimes times = timesOfFrames("accumulation", {{"lensSamples", int64_t{kUnitViews}}});
-    return {times.cpuMs / kUnitViews, times.wallMs / kUnitViews, times.gpuMs / kUnitViews};
+    const TurnTimes times = timesOfFrames("accumulation", {{"lensSamples", int64_t{kUnitViews}}});
+    return TurnTimes{times.cpuMs / kUnitViews, times.wallMs / kUnitViews, times.gpuMs / kUnitViews};
   }
   if (turn.name == kCopyUnit) {
     copy_->copy();
@@ -262,13 +277,13 @@ TurnTimes CaseRun::timesOf(const PlannedTurn& turn) {
   }
   if (turn.program == kThisProgram) return timesOfFrames(turn.variant->choice.name, turn.variant->choice.parameters);
   std::string reason;
-  const ScratchFolder folder;
-  const auto picture = folder.path() / "turn.exr";
+  const ScratchFolder scratch(options_.folder);
+  const auto picture = scratch.path() / "turn.exr";
   const RenderRequest request{case_.shot.file,      case_.shot.width, case_.shot.height,
                               turn.variant->choice, picture,          options_.device};
-  const auto times = programOf(turn).measure(request, reason);
-  if (!times) throw engine::Error(turn.program + ": " + turn.name + ": " + reason, engine::ErrorKind::failed);
-  return *times;
+  const auto times = programOf(turn).measure(request, scratch.path(), reason);
+  if (!times) spdlog::warn("{} {}: {} could not be timed: {}", case_.id, turn.name, turn.program, reason);
+  return times;
 }
 
 TurnTimes CaseRun::timesOfFrames(const std::string& technique, const passes::ParameterSet& parameters) {
@@ -276,8 +291,11 @@ TurnTimes CaseRun::timesOfFrames(const std::string& technique, const passes::Par
   options.technique = technique;
   options.parameters = parameters;
   options.execute.timing = rendergraph::Timing::inlineTimestamps;
-  // Another technique had the turn before: this frame makes the plan and the memory again.
-  const int frames = framesOfTurn(renderer_->render(case_.shot, options).wallMs);
+  // Another technique had the turn before: this frame makes the plan and the memory again. Where there is no plan
+  // (raytraced), it counts.
+  const auto first = renderer_->render(case_.shot, options);
+  if (first.executions == 0) return {first.cpuMs, first.wallMs, first.gpuMs};
+  const int frames = framesOfTurn(first.wallMs);
   TurnMean mean;
   for (int frame = 0; frame < frames; ++frame) {
     const auto rendering = renderer_->render(case_.shot, options);

@@ -31,7 +31,8 @@ Journal::Journal(const std::filesystem::path& folder, const ordered_json& identi
                          .reason = "cannot be opened: " + std::generic_category().message(errno),
                          .remedy = "choose another folder"});
   }
-  if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+  // Some network file systems know no locks: there nothing keeps two processes apart.
+  if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     ::close(descriptor_);
     throw engine::Error({.file = file_.string(),
                          .field = {},
@@ -56,6 +57,7 @@ void Journal::read(const ordered_json& identity) {
   content << stream.rdbuf();
   const std::string text = content.str();
   const std::size_t end = text.rfind('\n') + 1;  // 0 when there is no whole line.
+  if (end == 0 && !text.empty() && text.front() != '{') failForeign();
   if (::ftruncate(descriptor_, static_cast<off_t>(end)) != 0) {
     throw engine::Error(file_.string() + ": cannot be written", engine::ErrorKind::failed);
   }
@@ -68,10 +70,7 @@ void Journal::read(const ordered_json& identity) {
   for (bool isFirst = true; std::getline(lines, line); isFirst = false) {
     auto value = ordered_json::parse(line, nullptr, false);
     if (!value.is_object()) {
-      throw engine::Error({.file = file_.string(),
-                           .field = {},
-                           .reason = "is no journal of a benchmark",
-                           .remedy = "remove it, or choose another folder"});
+      failForeign();
     }
     if (!isFirst) {
       take(std::move(value));
@@ -86,6 +85,13 @@ void Journal::read(const ordered_json& identity) {
                            .remedy = "choose another folder"});
     }
   }
+}
+
+void Journal::failForeign() const {
+  throw engine::Error({.file = file_.string(),
+                       .field = {},
+                       .reason = "is no journal of a benchmark",
+                       .remedy = "remove it, or choose another folder"});
 }
 
 void Journal::take(ordered_json line) {

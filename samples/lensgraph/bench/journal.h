@@ -32,6 +32,7 @@ class Journal {
 
  private:
   void read(const nlohmann::ordered_json& identity);
+  [[noreturn]] void failForeign() const;
   void take(nlohmann::ordered_json line);
   void append(const nlohmann::ordered_json& line);
 

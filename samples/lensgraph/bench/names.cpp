@@ -2,8 +2,6 @@
 #include "samples/lensgraph/bench/names.h"
 
 #include <cctype>
-#include <cstdint>
-#include <cstdio>
 
 #include "passes/parameters.h"
 
@@ -28,14 +26,6 @@ std::string fileNameOf(std::string_view text) {
     if (!isPlain) c = '_';
   }
   return name;
-}
-
-std::string hashOfText(std::string_view text) {
-  uint64_t hash = 0xcbf29ce484222325u;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-  char digits[17];
-  std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash));
-  return digits;
 }
 
 }  // namespace lensgraph::cli

@@ -19,7 +19,4 @@ std::string variantId(const host::TechniqueChoice& choice);
 /// in other characters alone become the same.
 std::string fileNameOf(std::string_view text);
 
-/// FNV-1a of the text, as 16 hexadecimal digits.
-std::string hashOfText(std::string_view text);
-
 }  // namespace lensgraph::cli

@@ -2,14 +2,12 @@
 #include "samples/lensgraph/capture/capture_file.h"
 
 #include <cmath>
-#include <cstdio>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "passes/lens/physical_lens.h"
 #include "samples/host/measures/quality.h"
+#include "samples/host/measures/shot_files.h"
 #include "samples/lensgraph/version.h"
 
 namespace lensgraph::cli {
@@ -31,19 +29,6 @@ json toJson(const engine::DeviceDescription& device) {
 json toJson(const rendergraph::Spread& spread) {
   if (spread.median < 0.0) return {};
   return {{"median", spread.median}, {"min", spread.min}, {"max", spread.max}};
-}
-
-std::string hashOfFiles(const std::vector<std::filesystem::path>& files) {
-  uint64_t hash = 0xcbf29ce484222325u;
-  for (const auto& file : files) {
-    std::ifstream stream(file, std::ios::binary);
-    for (auto byte = std::istreambuf_iterator<char>(stream); byte != std::istreambuf_iterator<char>{}; ++byte) {
-      hash = (hash ^ static_cast<unsigned char>(*byte)) * 0x100000001b3u;
-    }
-  }
-  char digits[17];
-  std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash));
-  return digits;
 }
 
 json samplesJson(const std::vector<double>& samples) {
@@ -68,7 +53,7 @@ json renderingJson(const engine::DeviceDescription& device, const CaptureInput& 
       {"program", {{"name", "lensgraph"}, {"version", kVersion}, {"commit", kCommit}}},
       {"device", toJson(device)},
       {"shot", input.source},
-      {"inputHash", hashOfFiles(input.files)},
+      {"inputHash", host::hashOfFiles(input.files)},
       {"resolution", {rendering.color.width, rendering.color.height}},
       {"lens",
        {{"apertureRadius", passes::apertureRadius(*input.lens)}, {"focusDistance", toJson(input.lens->focusDistance)}}},

@@ -25,10 +25,6 @@ nlohmann::json toJson(double value);
 /// {"median", "min", "max"}, or null when nothing was measured.
 nlohmann::json toJson(const rendergraph::Spread& spread);
 
-/// FNV-1a over the bytes of the files in this order, as 16 hexadecimal digits. A glTF file's external buffers
-/// and images are not followed. Unreadable files count as empty.
-std::string hashOfFiles(const std::vector<std::filesystem::path>& files);
-
 struct CaptureInput {
   std::string source;                        ///< The shot file, or the colour picture.
   std::vector<std::filesystem::path> files;  ///< What the hash covers.

@@ -7,6 +7,7 @@
 #include "engine/files/output_file.h"
 #include "engine/metrics/flip.h"
 #include "samples/lensgraph/bench/results/bench_document.h"
+#include "samples/lensgraph/bench/results/json_values.h"
 #include "samples/lensgraph/pages/bench_page.h"
 #include "samples/lensgraph/pages/embedded_page.h"
 
@@ -28,14 +29,14 @@ void printResult(const ordered_json& result) {
   const std::string program = result["program"];
   const std::string name = (program == "this" ? "" : program + ": ") + result["id"].get<std::string>();
   std::printf("  %-44s", name.c_str());
-  printNumber(result["cpuMs"]["median"], 10, 1);
+  printNumber(valueAt(result, "/cpuMs/median"), 10, 1);
   const auto& quality = result["quality"];
-  printNumber(quality["psnr"], 9, 2);
-  printNumber(quality["ssim"], 8, 4);
+  printNumber(valueAt(quality, "/psnr"), 9, 2);
+  printNumber(valueAt(quality, "/ssim"), 8, 4);
   const auto& ratios = result["ratios"];
-  printNumber(ratios["pinhole"], 10, 2);
-  printNumber(ratios["accumulationAtPsnr"], 9, 2);
-  printNumber(ratios["accumulationAtSsim"], 9, 2);
+  printNumber(valueAt(ratios, "/pinhole"), 10, 2);
+  printNumber(valueAt(ratios, "/accumulationAtPsnr"), 9, 2);
+  printNumber(valueAt(ratios, "/accumulationAtSsim"), 9, 2);
   std::printf("\n");
 }
 

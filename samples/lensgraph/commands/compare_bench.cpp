@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "samples/lensgraph/bench/results/bench_comparison.h"
 #include "samples/lensgraph/bench/results/bench_file.h"
@@ -76,7 +77,8 @@ int runCompareBench(const CompareBenchArguments& arguments) {
                                          {.unit = arguments.unit,
                                           .timeRatio = arguments.timeTolerance,
                                           .psnr = arguments.psnrTolerance,
-                                          .ssim = arguments.ssimTolerance},
+                                          .ssim = arguments.ssimTolerance,
+                                          .mustBeComplete = arguments.mustBeComplete},
                                          arguments.before.string(), arguments.after.string());
   if (arguments.json) {
     printJson(comparison);

@@ -2,6 +2,7 @@
 #include "engine/error.h"
 #include "engine/image/image_io.h"
 #include "engine/raytracer/ray_tracer.h"
+#include "samples/host/measures/shot_files.h"
 #include "samples/host/raytraced.h"
 #include "samples/host/shot_scene.h"
 #include "samples/lensgraph/capture/capture_file.h"
@@ -54,9 +55,7 @@ void checkTechniqueOptions(const RenderArguments& arguments, const host::Techniq
 }
 
 CaptureInput inputOf(const RenderArguments& arguments, const host::Shot& shot) {
-  CaptureInput input{arguments.shot.string(), {arguments.shot}, &shot.lens, shot.faces};
-  for (const auto& part : shot.scene) input.files.push_back(part.path);
-  return input;
+  return {arguments.shot.string(), host::filesOf(shot), &shot.lens, shot.faces};
 }
 
 /// Without a Vulkan device.

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <ctime>
 #include <thread>
@@ -34,9 +35,14 @@ TEST(ProcessUsage, CountsTheTimeOfAllThreads) {
 }
 
 TEST(ProcessUsage, WaitingCostsNothing) {
-  const double before = processCpuMs();
-  std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  EXPECT_LT(processCpuMs() - before, 20.0);
+  // Threads that libraries start may be at work in one of these moments, but not in all.
+  double least = 1e9;
+  for (int attempt = 0; attempt < 10; ++attempt) {
+    const double before = processCpuMs();
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    least = std::min(least, processCpuMs() - before);
+  }
+  EXPECT_LT(least, 20.0);
 }
 
 TEST(ProcessUsage, PeakMemoryGrowsWithWhatIsTouched) {

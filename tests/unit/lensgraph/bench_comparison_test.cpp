@@ -66,9 +66,7 @@ TEST(BenchComparison, FallingQualityIsARegression) {
 TEST(BenchComparison, TimesCanBeMultiplesOfAUnit) {
   auto slowMachine = results({120.0, 120.0, 120.0});
   slowMachine["host"]["processor"] = "another";
-  for (auto& field : slowMachine["shots"][0]["units"]["accumulationView"]["cpuMs"].items()) {
-    if (field.key() == "median") field.value() = 15.0;
-  }
+  slowMachine["shots"][0]["results"][0]["unitMs"]["accumulationView"] = 15.0;
   const auto comparison = compare(results(), slowMachine, {.unit = "accumulationView"});
   EXPECT_EQ(comparison.results[0].time->median, 1.0);
   EXPECT_FALSE(comparison.hasRegression());
@@ -92,11 +90,47 @@ TEST(BenchComparison, RefusesWhatIsNotAlike) {
 }
 
 TEST(BenchComparison, NamesWhatOnlyOneOfThemHas) {
-  auto after = results();
-  after["shots"][0]["results"][0]["id"] = "another";
-  const auto comparison = compare(results(), after);
-  EXPECT_THAT(comparison.onlyBefore, testing::ElementsAre("quad_64x36 two_pass_filter"));
+  const auto withMore = [](const char* name) {
+    auto document = results();
+    auto more = document["shots"][0]["results"][0];
+    more["id"] = name;
+    document["shots"][0]["results"].push_back(more);
+    return document;
+  };
+  const auto comparison = compare(withMore("one"), withMore("another"));
+  EXPECT_THAT(comparison.onlyBefore, testing::ElementsAre("quad_64x36 one"));
   EXPECT_THAT(comparison.onlyAfter, testing::ElementsAre("quad_64x36 another"));
+  EXPECT_FALSE(comparison.hasRegression());
+  EXPECT_TRUE(compare(withMore("one"), results(), {.mustBeComplete = true}).hasRegression());
+  EXPECT_FALSE(compare(results(), withMore("one"), {.mustBeComplete = true}).hasRegression());
+}
+
+TEST(BenchComparison, NothingInCommonCannotBeCompared) {
+  auto after = results();
+  after["shots"][0]["results"] = ordered_json::array();
+  EXPECT_THAT(refusal(after), HasSubstr("shots"));
+}
+
+TEST(BenchComparison, SizesThatOnlyOneOfThemHasAreNamed) {
+  auto both = results();
+  both["shots"].push_back(both["shots"][0]);
+  both["shots"][1]["case"] = "quad_128x72";
+  both["shots"][1]["width"] = 128;
+  EXPECT_THAT(compare(both, results()).onlyBefore, testing::ElementsAre("quad_128x72 two_pass_filter"));
+  EXPECT_THAT(compare(results(), both).onlyAfter, testing::ElementsAre("quad_128x72 two_pass_filter"));
+}
+
+TEST(BenchComparison, ALostTimeIsARegression) {
+  auto after = results();
+  after["shots"][0]["results"][0]["cpuMs"] = nullptr;
+  EXPECT_TRUE(compare(results(), after).hasRegression());
+}
+
+TEST(BenchComparison, MergedBenchmarksHaveTheProcessorsOfAllParts) {
+  auto merged = results();
+  merged["hosts"] = {{{"processor", "a processor"}}, {{"processor", "another"}}};
+  EXPECT_THAT(refusal(merged), HasSubstr("host.processor"));
+  EXPECT_FALSE(compare(results(), merged, {.unit = "pinhole"}).hasRegression());
 }
 
 }  // namespace

@@ -5,9 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "engine/error.h"
+#include "samples/host/measures/shot_files.h"
 #include "samples/lensgraph/bench/bench_case.h"
 #include "samples/lensgraph/bench/names.h"
 #include "tests/support/temporary_folder.h"
@@ -78,6 +80,7 @@ TEST_F(BenchConfigTest, WhatIsWrongIsNamed) {
   EXPECT_THAT(errorOf(R"({"shots": ["one.json"], "repeats": 0})"), HasSubstr("repeats"));
   EXPECT_THAT(errorOf(R"({"shots": ["one.json"], "referenceSamples": 128})"), HasSubstr("referenceSamples"));
   EXPECT_THAT(errorOf(R"({"shots": ["one.json"], "sizes": [[0, 4]]})"), HasSubstr("sizes[0]"));
+  EXPECT_THAT(errorOf(R"({"shots": ["one.json"], "sizes": [[4, 4], [4, 4]]})"), HasSubstr("twice"));
   EXPECT_THAT(errorOf(R"({"shots": ["one.json"], "repeat": 2})"), HasSubstr("repeats"));  // The nearest.
   EXPECT_THAT(errorOf(R"({"shots": ["one.json"], "variants": [{"technique": "pinhol"}]})"),
               testing::AllOf(HasSubstr("variants[0].technique"), HasSubstr("pinhole")));
@@ -104,17 +107,38 @@ TEST_F(BenchConfigTest, FoldersOfShotsAreFoundWithTheirReferences) {
   EXPECT_THROW(findShots({folder_ / "one.json", folder_ / "one.json"}), engine::Error);
 }
 
-TEST_F(BenchConfigTest, AnyChangeChangesTheHash) {
+TEST_F(BenchConfigTest, AnyChangeChangesTheIdentityAndPathsDoNot) {
   const std::vector<std::string> texts = {R"({"shots": ["one.json"]})",
                                           R"({"shots": ["two.json"]})",
                                           R"({"shots": ["one.json"], "repeats": 4})",
                                           R"({"shots": ["one.json"], "sizes": [[8, 8]]})",
                                           R"({"shots": ["one.json"], "exposureEv": 1})",
                                           R"({"shots": ["one.json"], "variants": [{"technique": "pinhole"}]})"};
-  std::set<std::string> hashes;
-  for (const auto& text : texts) hashes.insert(hashOf(read(text)));
-  EXPECT_EQ(hashes.size(), texts.size());
-  EXPECT_EQ(hashOf(read(texts[0])), hashOf(read(texts[0])));
+  std::set<std::string> identities;
+  for (const auto& text : texts) identities.insert(identityOf(read(text)).dump());
+  EXPECT_EQ(identities.size(), texts.size());
+  const auto before = identityOf(read(texts[0])).dump();
+  EXPECT_EQ(identityOf(read(R"({"shots": ["./one.json"]})")).dump(), before);
+  write("quad.glb", "another scene");
+  EXPECT_NE(identityOf(read(texts[0])).dump(), before);
+}
+
+TEST_F(BenchConfigTest, BuffersAndImagesBesideAGltfCount) {
+  write("scene.gltf", R"({"buffers": [{"uri": "a%20buffer.bin"}], "images": [{"uri": "data:image/png;base64,"}]})");
+  write("one.json", R"({"scene": [{"path": "scene.gltf"}], "lens": {"focusDistance": 2}})");
+  const auto files = host::filesOf(host::readShot(folder_ / "one.json"));
+  ASSERT_EQ(files.size(), 3u);
+  EXPECT_EQ(files[2].filename(), "a buffer.bin");
+  const auto before = host::hashOfFiles(files);
+  write("a buffer.bin", "vertices");
+  EXPECT_NE(host::hashOfFiles(files), before);
+}
+
+TEST_F(BenchConfigTest, OtherShotsReplaceThoseOfTheFile) {
+  write("bench.json", R"({"variants": [{"technique": "pinhole"}]})");
+  const auto config = readBenchConfig(folder_ / "bench.json", findShots({folder_ / "two.json"}));
+  ASSERT_EQ(config.shots.size(), 1u);
+  EXPECT_EQ(shotId(config.shots[0].shot), "two");
 }
 
 TEST_F(BenchConfigTest, ShardsTogetherAreTheWhole) {
@@ -135,10 +159,11 @@ TEST_F(BenchConfigTest, ShardsTogetherAreTheWhole) {
 }
 
 TEST(Shards, AreReadAndRefused) {
-  EXPECT_EQ(parseShard("3/8").index, 3);
-  EXPECT_EQ(parseShard("3/8").count, 8);
+  ASSERT_TRUE(shardFrom("3/8"));
+  EXPECT_EQ(shardFrom("3/8")->index, 3);
+  EXPECT_EQ(shardFrom("3/8")->count, 8);
   for (const char* text : {"0/8", "9/8", "3", "3/", "/8", "a/b", "1/0", "3/8x", "-1/2", ""}) {
-    EXPECT_THROW(parseShard(text), engine::Error) << text;
+    EXPECT_FALSE(shardFrom(text)) << text;
   }
 }
 

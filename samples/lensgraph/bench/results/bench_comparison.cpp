@@ -3,22 +3,18 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "engine/error.h"
+#include "samples/lensgraph/bench/results/json_values.h"
 
 namespace lensgraph::cli {
 namespace {
 
 using nlohmann::ordered_json;
-using Pointer = ordered_json::json_pointer;
 
 /// Rounding of the figures as text: smaller changes are none.
 constexpr double kSameQuality = 1e-9;
-
-ordered_json valueAt(const ordered_json& value, const std::string& pointer) {
-  const Pointer at(pointer);
-  return value.contains(at) ? value[at] : ordered_json();
-}
 
 class Comparer {
  public:
@@ -31,8 +27,8 @@ class Comparer {
       requireSame(before_, after_, field, "");
     }
     if (tolerances_.unit == "none") {
-      requireSame(before_, after_, "/host/processor", "",
-                  "give --unit, so that times are compared as multiples of a unit");
+      requireSame({{"host", {{"processor", processorsOf(before_)}}}}, {{"host", {{"processor", processorsOf(after_)}}}},
+                  "/host/processor", "", "give --unit, so that times are compared as multiples of a unit");
     }
     for (const auto& shot : before_["shots"]) {
       const auto* other = shotLike(after_, shot);
@@ -48,6 +44,12 @@ class Comparer {
     for (const auto& shot : after_["shots"]) {
       if (shotLike(before_, shot) != nullptr) continue;
       for (const auto& result : shot["results"]) addOnly(comparison_.onlyAfter, shot, result);
+    }
+    if (comparison_.results.empty()) {
+      throw engine::Error({.file = afterName_,
+                           .field = "shots",
+                           .reason = "has no result that " + beforeName_ + " has too",
+                           .remedy = "compare benchmarks of like things"});
     }
     return std::move(comparison_);
   }
@@ -65,12 +67,29 @@ class Comparer {
                          .remedy = remedy});
   }
 
-  /// The shot of that name in that size; else one of that name in another size, which is then refused.
-  static const ordered_json* shotLike(const ordered_json& document, const ordered_json& shot) {
+  /// The processors of all parts, each once.
+  static ordered_json processorsOf(const ordered_json& document) {
+    std::set<std::string> names;
+    if (!document.contains("hosts")) names.insert(valueAt(document, "/host/processor").dump());
+    for (const auto& host : valueAt(document, "/hosts")) names.insert(valueAt(host, "/processor").dump());
+    return names;
+  }
+
+  static bool hasCase(const ordered_json& document, const ordered_json& shot) {
+    for (const auto& other : document["shots"]) {
+      if (other["case"] == shot["case"]) return true;
+    }
+    return false;
+  }
+
+  /// The shot of that name in that size; else one of that name in another size that has no partner of its own, which is
+  /// then refused.
+  const ordered_json* shotLike(const ordered_json& document, const ordered_json& shot) const {
     const ordered_json* found = nullptr;
+    const ordered_json& ofShot = &document == &after_ ? before_ : after_;
     for (const auto& other : document["shots"]) {
       if (other["case"] == shot["case"]) return &other;
-      if (other["id"] == shot["id"]) found = &other;
+      if (other["id"] == shot["id"] && !hasCase(ofShot, other)) found = &other;
     }
     return found;
   }
@@ -108,7 +127,8 @@ class Comparer {
     ComparedResult result{
         .shot = shotBefore["case"], .variant = before["id"], .time = {}, .psnrChange = {}, .ssimChange = {}};
     result.time = timeRatio(shotBefore, before, shotAfter, after);
-    result.isSlower = result.time && result.time->median > tolerances_.timeRatio;
+    const bool lostItsTime = timeOf(shotBefore, before) && !timeOf(shotAfter, after);
+    result.isSlower = lostItsTime || (result.time && result.time->median > tolerances_.timeRatio);
     result.psnrChange = change(before, after, "/quality/psnr");
     result.ssimChange = change(before, after, "/quality/ssim");
     result.isWorse = fell(before, after, "/quality/psnr", tolerances_.psnr) ||
@@ -123,7 +143,8 @@ class Comparer {
     if (!time.is_object()) return {};
     double unit = 1.0;
     if (tolerances_.unit != "none") {
-      const auto median = valueAt(shot, "/units/" + tolerances_.unit + clock + "/median");
+      const auto own = valueAt(result, "/unitMs/" + tolerances_.unit);
+      const auto median = own.is_number() ? own : valueAt(shot, "/units/" + tolerances_.unit + clock + "/median");
       if (!median.is_number() || median.get<double>() <= 0.0) return {};
       unit = median;
     }
@@ -162,12 +183,15 @@ class Comparer {
 }  // namespace
 
 bool BenchComparison::hasRegression() const {
+  if (mustBeComplete && !onlyBefore.empty()) return true;
   return std::any_of(results.begin(), results.end(), [](const auto& each) { return each.isSlower || each.isWorse; });
 }
 
 BenchComparison compareBenches(const ordered_json& before, const ordered_json& after, const BenchTolerances& tolerances,
                                const std::string& beforeName, const std::string& afterName) {
-  return Comparer(before, after, tolerances, beforeName, afterName).compare();
+  auto comparison = Comparer(before, after, tolerances, beforeName, afterName).compare();
+  comparison.mustBeComplete = tolerances.mustBeComplete;
+  return comparison;
 }
 
 }  // namespace lensgraph::cli

@@ -26,6 +26,7 @@ struct ComparedResult {
 struct BenchComparison {
   std::vector<ComparedResult> results;             ///< Of variants that both have, of the programs that wrote them.
   std::vector<std::string> onlyBefore, onlyAfter;  ///< "SHOT VARIANT" that the other has not.
+  bool mustBeComplete = false;                     ///< As BenchTolerances say.
   bool hasRegression() const;
 };
 
@@ -33,11 +34,13 @@ struct BenchComparison {
 struct BenchTolerances {
   std::string unit = "none";
   double timeRatio = 1.1, psnr = 0.0, ssim = 0.0;
+  bool mustBeComplete = false;  ///< Whether a variant that only the earlier benchmark has is a regression.
 };
 
 /// Times are processor time on CPU devices and device time on others, or multiples of the unit's. Throws engine::Error
 /// that names the first field in which the benchmarks cannot be compared: the device, the settings of quality, a shot's
-/// size, scene or reference; with unit "none" also the processor. `beforeName` and `afterName` are for messages.
+/// size, scene or reference; with unit "none" also the processors; or that they
+/// have no result in common. `beforeName` and `afterName` are for messages.
 BenchComparison compareBenches(const nlohmann::ordered_json& before, const nlohmann::ordered_json& after,
                                const BenchTolerances& tolerances, const std::string& beforeName,
                                const std::string& afterName);

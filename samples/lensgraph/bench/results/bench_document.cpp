@@ -6,10 +6,13 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string_view>
 #include <tuple>
+#include <utility>
 
 #include "rendergraph/capture_series.h"
 #include "samples/lensgraph/bench/results/equal_quality.h"
+#include "samples/lensgraph/bench/results/json_values.h"
 #include "samples/lensgraph/bench/units.h"
 #include "samples/lensgraph/capture/capture_file.h"
 
@@ -48,7 +51,7 @@ std::vector<double> quotients(const std::vector<double>& above, const std::vecto
                               double divisor = 1.0) {
   std::vector<double> all;
   for (std::size_t round = 0; round < above.size() && round < below.size(); ++round) {
-    if (below[round] > 0.0) all.push_back(above[round] / below[round] / divisor);
+    if (above[round] > 0.0 && below[round] > 0.0) all.push_back(above[round] / below[round] / divisor);
   }
   return all;
 }
@@ -134,11 +137,22 @@ class Results {
     return over(turns, find(shot["id"], "this", kViewUnit), *samples);
   }
 
+  /// Medians of the units that took turns with the case's results. Of a merged benchmark those of the result's own part.
+  ordered_json unitMedians(const std::string& id) const {
+    ordered_json medians = ordered_json::object();
+    for (const auto& [name, unit] : kUnits) {
+      const Turns* turns = find(id, "this", unit);
+      medians[name] = turns == nullptr ? ordered_json() : ordered_json(rendergraph::spreadOf(basis(*turns)).median);
+    }
+    return medians;
+  }
+
   ordered_json resultJson(const ordered_json& shot, const ordered_json& variant, const Turns& turns) const {
     const std::string id = shot["id"];
     ordered_json result = variant;
     for (const char* internal : {"key", "case"}) result.erase(internal);
     result.update(timesJson(turns));
+    result["unitMs"] = unitMedians(id);
     Ratios ratios;
     ratios.add("pinhole", over(turns, find(id, "this", kPinholeUnit)));
     ratios.add("copy", over(turns, find(id, "this", kCopyUnit)));
@@ -179,12 +193,6 @@ std::string cell(const ordered_json& value) {
   std::string text = value;
   for (std::size_t at = 0; (at = text.find('"', at)) != std::string::npos; at += 2) text.insert(at, 1, '"');
   return "\"" + text + "\"";
-}
-
-/// A value some fields deep; null where there is none.
-ordered_json valueAt(const ordered_json& value, const std::string& pointer) {
-  const ordered_json::json_pointer at(pointer);
-  return value.contains(at) ? value[at] : ordered_json();
 }
 
 }  // namespace

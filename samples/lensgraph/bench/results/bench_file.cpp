@@ -57,6 +57,16 @@ class Checker {
     }
   }
 
+  /// A spread is null, or has numbers.
+  void requireSpread(const json& object, const char* field, const std::string& place) const {
+    const json& spread = object[field];
+    if (spread.is_null()) return;
+    for (const char* name : {"median", "min", "max"}) {
+      const bool isNumber = spread.is_object() && spread.contains(name) && spread[name].is_number();
+      if (!isNumber) fail(place + "." + field + "." + name, "is no number");
+    }
+  }
+
  private:
   path file_;
 };
@@ -81,7 +91,12 @@ ordered_json readBenchFile(const path& fileOrFolder) {
     checker.require(shot, kShotFields, place);
     std::size_t result = 0;
     for (const auto& each : shot["results"]) {
-      checker.require(each, kResultFields, place + ".results[" + std::to_string(result++) + "]");
+      const std::string at = place + ".results[" + std::to_string(result++) + "]";
+      checker.require(each, kResultFields, at);
+      for (const char* clock : {"cpuMs", "wallMs", "gpuMs"}) {
+        if (!each.contains(clock)) checker.fail(at + "." + clock, "is missing");
+        checker.requireSpread(each, clock, at);
+      }
     }
   }
   std::ifstream stream(file);

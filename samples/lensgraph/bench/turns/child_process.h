@@ -13,11 +13,12 @@ struct ChildOutcome {
   double cpuMs = 0.0;    ///< User and system time of all its threads.
 };
 
-/// A folder of its own in the system's folder for temporary files, removed with everything in it afterwards.
+/// DIR/scratch, empty at first and removed with everything in it afterwards. What a killed process left there is removed by
+/// the next.
 class ScratchFolder {
  public:
-  /// Throws engine::Error (failed) where none can be made.
-  ScratchFolder();
+  /// Throws engine::Error (failed) where it cannot be made.
+  explicit ScratchFolder(const std::filesystem::path& folder);
   ~ScratchFolder();
   ScratchFolder(const ScratchFolder&) = delete;
   ScratchFolder& operator=(const ScratchFolder&) = delete;
@@ -28,7 +29,8 @@ class ScratchFolder {
   std::filesystem::path path_;
 };
 
-/// Runs `program arguments…` and waits. Throws engine::Error (failed) where it cannot be waited for.
+/// Runs `program arguments…` and waits. A signal that ends this process ends the child too. Throws engine::Error (failed)
+/// where there is no memory for its output, or it cannot be waited for.
 ChildOutcome runChild(const std::filesystem::path& program, const std::vector<std::string>& arguments);
 
 }  // namespace lensgraph::cli

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "engine/error.h"
 #include "samples/lensgraph/bench/turns/child_process.h"
@@ -41,7 +42,8 @@ std::vector<std::string> argumentsOf(const RenderRequest& request) {
 
 double medianOf(const json& document, const char* name) {
   if (!document.contains(name) || !document[name].is_object()) return 0.0;
-  return document[name].value("median", 0.0);
+  const auto& spread = document[name];
+  return spread.contains("median") && spread["median"].is_number() ? spread["median"].get<double>() : 0.0;
 }
 
 }  // namespace
@@ -69,8 +71,12 @@ bool OtherProgram::render(const RenderRequest& request, std::string& reason) con
   return outcome.status == 0;
 }
 
-std::optional<TurnTimes> OtherProgram::measure(const RenderRequest& request, std::string& reason) const {
-  return timesFrames_ ? timedFrames(request, reason) : framesByDifference(request, reason);
+std::optional<TurnTimes> OtherProgram::measure(const RenderRequest& request, const path& scratch,
+                                               std::string& reason) const {
+  const auto times = timesFrames_ ? timedFrames(request, reason) : framesByDifference(request, scratch, reason);
+  if (times && times->cpuMs > 0.0) return times;
+  if (times) reason = "it tells no time of a frame";
+  return {};
 }
 
 std::optional<TurnTimes> OtherProgram::timedFrames(const RenderRequest& request, std::string& reason) const {
@@ -79,7 +85,7 @@ std::optional<TurnTimes> OtherProgram::timedFrames(const RenderRequest& request,
   arguments.insert(arguments.end(), {"--json", "--frames-timed", std::to_string(kFrames)});
   const auto outcome = runChild(path_, arguments);
   const auto report = json::parse(outcome.out, nullptr, false);
-  if (outcome.status != 0 || !report.is_object() || !report.contains("warm")) {
+  if (outcome.status != 0 || !report.is_object() || !report.contains("warm") || !report["warm"].is_object()) {
     reason = lastLine(outcome.err);
     return {};
   }
@@ -87,9 +93,9 @@ std::optional<TurnTimes> OtherProgram::timedFrames(const RenderRequest& request,
   return TurnTimes{medianOf(warm, "cpuMs"), medianOf(warm, "wallMs"), medianOf(warm, "gpuMs")};
 }
 
-std::optional<TurnTimes> OtherProgram::framesByDifference(const RenderRequest& request, std::string& reason) const {
-  const ScratchFolder folder;
-  const path capture = folder.path() / "capture.json";
+std::optional<TurnTimes> OtherProgram::framesByDifference(const RenderRequest& request, const path& scratch,
+                                                          std::string& reason) const {
+  const path capture = scratch / "capture.json";
   const auto run = [&](int frames) {
     auto arguments = argumentsOf(request);
     arguments.insert(arguments.end(),

@@ -35,11 +35,14 @@ class OtherProgram {
   /// Times of a warm frame. A build with `--frames-timed` tells its frame's CPU time itself; of an older one it is the
   /// difference between a process that renders few frames and one that renders more, divided by their number, since
   /// both start up and warm up alike. Nothing where it cannot render this; the reason is then in `reason`.
-  std::optional<TurnTimes> measure(const RenderRequest& request, std::string& reason) const;
+  /// `scratch` is a folder for its files.
+  std::optional<TurnTimes> measure(const RenderRequest& request, const std::filesystem::path& scratch,
+                                   std::string& reason) const;
 
  private:
   std::optional<TurnTimes> timedFrames(const RenderRequest& request, std::string& reason) const;
-  std::optional<TurnTimes> framesByDifference(const RenderRequest& request, std::string& reason) const;
+  std::optional<TurnTimes> framesByDifference(const RenderRequest& request, const std::filesystem::path& scratch,
+                                              std::string& reason) const;
 
   std::string name_, version_, commit_;
   std::filesystem::path path_;
