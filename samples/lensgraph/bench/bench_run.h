@@ -1,7 +1,6 @@
 // Measures what a benchmark asks for and writes it into its journal; what the journal already holds is not repeated.
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -9,16 +8,11 @@
 #include "engine/vulkan/device.h"
 #include "samples/lensgraph/bench/bench_case.h"
 #include "samples/lensgraph/bench/bench_config.h"
+#include "samples/lensgraph/bench/case_run.h"
 #include "samples/lensgraph/bench/journal.h"
 #include "samples/lensgraph/bench/turns/other_program.h"
 
 namespace lensgraph::cli {
-
-struct BenchRunOptions {
-  std::filesystem::path folder;      ///< Pictures go to folder/pictures.
-  std::filesystem::path references;  ///< Folder of accumulation_pictures.h.
-  std::string device;                ///< As --device takes it, for other programs; empty: none given.
-};
 
 /// Share of the work that is done, 0…1 from where this run began, and what is being done.
 using BenchProgress = std::function<void(double share, const std::string& what)>;
