@@ -88,7 +88,7 @@ TEST_F(RayTracedState, AStateOfAnotherPictureIsRefusedByTheNameOfWhatDiffers) {
   samples();
   const auto refuses = [&](auto& value, auto other, const char* name) {
     std::swap(value, other);
-    EXPECT_THAT(complaint(), HasSubstr(std::string("is of another ") + name));
+    EXPECT_THAT(complaint(), testing::AllOf(HasSubstr("is of another"), HasSubstr(name)));
     std::swap(value, other);
   };
   refuses(view_.width, 51u, "size");

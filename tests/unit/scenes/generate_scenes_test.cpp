@@ -19,7 +19,8 @@ struct Result {
 };
 
 Result generateScenes(const std::string& arguments) {
-  const std::string command = std::string(LENSGRAPH_GENERATE_SCENES) + " " + arguments + " 2>&1 >/dev/null";
+  std::string command = LENSGRAPH_GENERATE_SCENES " ";
+  command.append(arguments).append(" 2>&1 >/dev/null");
   FILE* pipe = ::popen(command.c_str(), "r");
   Result result{-1, {}};
   std::array<char, 512> buffer{};

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iterator>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -25,10 +26,10 @@ inline std::optional<std::string> runPython(const std::string& script, const std
     std::ofstream input(folder / "input");
     for (const std::string& line : lines) input << line << "\n";
   }
-  const std::string command = std::string(LENSGRAPH_PYTHON) + " '" + LENSGRAPH_SOURCE_DIR +
-                              "/tests/unit/engine/metrics/" + script + "' < '" + (folder / "input").string() + "' > '" +
-                              (folder / "output").string() + "'";
-  const int status = std::system(command.c_str());
+  std::ostringstream command;
+  command << LENSGRAPH_PYTHON " '" LENSGRAPH_SOURCE_DIR "/tests/unit/engine/metrics/" << script << "' < '"
+          << (folder / "input").string() << "' > '" << (folder / "output").string() << "'";
+  const int status = std::system(command.str().c_str());
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   if (code == 77 || code == 127) return std::nullopt;
   if (code != 0) throw std::runtime_error(script + " failed");

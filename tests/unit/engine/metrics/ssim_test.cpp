@@ -29,8 +29,9 @@ TEST(Ssim, EqualsScikitImage) {
     const std::string name = (folder / std::to_string(size.width)).string();
     writeFloats(name + ".picture", metricMistake(reference, 9));
     writeFloats(name + ".reference", reference);
-    lines.push_back(std::to_string(size.width) + " " + std::to_string(size.height) + " " + name + ".picture " + name +
-                    ".reference");
+    std::ostringstream line;
+    line << size.width << " " << size.height << " " << name << ".picture " << name << ".reference";
+    lines.push_back(line.str());
   }
   const auto printed = runPython("ssim_reference.py", lines);
   if (!printed) GTEST_SKIP() << kNoPython;
